@@ -19,7 +19,7 @@ ConfigOutline outline_as_written(const Node& node) {
       for (const Node& item : node.items) outline.parts.push_back(outline_as_written(item));
       break;
     case Node::Kind::scalar:
-      // A choice is written without quotes: what was a number stays one.
+      // A choice is written without quotes, so that a number remains a number.
       outline.kind = node.quoted ? ConfigOutline::Kind::text : ConfigOutline::Kind::choice;
       outline.value = node.text;
       break;

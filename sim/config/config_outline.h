@@ -10,7 +10,7 @@
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
 
-/// A config struct as a tree of described values: what the writer, the schema and the documentation are made from.
+/// A config struct as a tree of described values, from which YAML, schema and documentation are written.
 namespace hedgehop::sim {
 
 struct ConfigOutline {
@@ -23,7 +23,7 @@ struct ConfigOutline {
   bool non_negative = false;         ///< an integer whose type has no sign
   bool optional = false;             ///< may be null
   bool present = true;               ///< an optional that holds a value
-  size_t fixed_size = 0;             ///< of a list: its number of items, 0 when any number may stand
+  size_t fixed_size = 0;             ///< of a list: its number of items; 0 for any number
   std::vector<ConfigOutline> parts;  ///< fields of a group or of a variant's choice; items of a list
   std::vector<ConfigOutline> item;   ///< of a list: one item, of default value
   std::string chosen;                ///< of a variant: name of the choice
@@ -32,11 +32,11 @@ struct ConfigOutline {
   bool open = false;                 ///< a group that may hold any keys
   bool chosen_by_key = false;        ///< a variant whose choice needs no selector, or such a choice
 
-  /// Whether it has a value of its own and no parts.
+  /// Whether it has a value and no parts.
   bool is_scalar() const { return kind != Kind::list && kind != Kind::group && kind != Kind::variant; }
 };
 
-/// A map as written, as a group of texts.
+/// Returns the outline of an uninterpreted map: a group of texts.
 ConfigOutline outline_as_written(const Node& node);
 
 template <class T>

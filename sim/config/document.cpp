@@ -43,7 +43,8 @@ std::string type_words(const ConfigOutline& node) {
 
 std::string bounds_words(const fields::Field& field) {
   std::vector<std::string> bounds;
-  const std::optional<double> limit = fields::unit_limit(field.unit);  // of every field of the unit: says nothing
+  const std::optional<double> limit =
+      fields::unit_limit(field.unit);  // holds for every field of the unit, so it is omitted
   const auto put = [&](std::string_view relation, const std::optional<double>& bound) {
     if (bound && (!limit || std::abs(*bound) != *limit)) bounds.push_back(fmt::format("{} {}", relation, *bound));
   };
@@ -54,7 +55,7 @@ std::string bounds_words(const fields::Field& field) {
   return fmt::format("{}", fmt::join(bounds, " and "));
 }
 
-/// A scalar as people write it: an angle's decimal is otherwise exact to the last bit of its radians.
+/// Returns a scalar with at most 12 digits; the exact decimal of an angle has more.
 std::string readable(const ConfigOutline& node) {
   return node.kind == Kind::number ? fmt::format("{:.12g}", parse_number(node.value, false).member) : node.value;
 }
@@ -86,7 +87,7 @@ std::string document_fields(const std::vector<ConfigOutline>& fields, int indent
                         fmt::join(facts, ", "));
     const ConfigOutline& shape = field.kind == Kind::list ? field.item.at(0) : field;
     if (shape.kind == Kind::group) text += document_fields(shape.parts, indent + 4);
-    if (shape.kind == Kind::variant && indent > 0) {  // those of a scenario itself are topics of their own
+    if (shape.kind == Kind::variant && indent > 0) {  // the choices of a scenario's own keys are topics
       for (const ConfigOutline& choice : shape.all) {
         text += fmt::format("{:{}}{}: {}\n", "", indent + 4, choice.key, choice.meaning);
         text += document_fields(choice.parts, indent + 8);

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keys that choose the avoidance module.
+/// Keys that exclude each other because each chooses the module.
 constexpr std::array<std::string_view, 3> kModuleKeys = {kModuleSelector, kPythonKey, kPluginKey};
 
 bool is_selector(std::string_view key) {
   return std::find(std::begin(kSelectors), std::end(kSelectors), key) != std::end(kSelectors);
 }
 
-/// Whether a key with this value chooses something else than what the map holds.
+/// Whether a key with this value chooses another alternative than the map does.
 bool chooses_another(const Node& map, std::string_view key, const Node& value) {
   const auto is_module = [&](std::string_view other) { return other != key && map.find(other); };
   const bool foreign = key == kPythonKey || key == kPluginKey;
@@ -33,7 +33,7 @@ bool chooses_another(const Node& map, std::string_view key, const Node& value) {
   return is_selector(key) && old && old->kind == Node::Kind::scalar && old->text != value.text;
 }
 
-/// Whether `over` names another choice than `base`.
+/// Whether `over` chooses another alternative than `base`.
 bool changes_choice(const Node& base, const Node& over) {
   return std::ranges::any_of(over.entries,
                              [&](const Entry& entry) { return chooses_another(base, entry.key, entry.value); });
@@ -48,20 +48,20 @@ void set_positions(Node& node, const SourcePosition& position) {
   }
 }
 
-/// What to say of a scenario that is not there, where others are installed.
-std::string where_scenarios_are(const fs::path& file) {
+/// Returns advice for a missing scenario if scenarios are installed.
+std::string installed_scenarios_advice(const fs::path& file) {
   std::error_code error;
   const fs::path installed = installed_configs();
   if (installed.empty() || fs::exists(file, error)) return {};
   return fmt::format("; the installed scenarios: cp -r {} .", installed.string());
 }
 
-/// Reads files and the files that they use, and knows which are being read.
+/// Reads files and the files that they use, and detects circles.
 class Includer {
  public:
   Includer(ErrorList& errors, std::set<fs::path>& read) : errors_(errors), read_(read) {}
 
-  /// @param from  place of the `use` that names it, or null for the scenario itself.
+  /// @param from  position of the `use` that names it; null for the first file.
   Node load(const fs::path& file, const SourcePosition* from) {
     const std::string name = file.lexically_normal().string();
     const SourcePosition position = from ? *from : SourcePosition{name, 0, 0};
@@ -71,7 +71,7 @@ class Includer {
       std::string circle;
       for (auto i = same - identities_.begin(); i < std::ssize(names_); ++i)
         circle += names_[static_cast<size_t>(i)] + " -> ";
-      errors_.add(position, fmt::format("'use' runs in a circle: {}{}", circle, name));
+      errors_.add(position, fmt::format("'use' forms a circle: {}{}", circle, name));
       return {};
     }
     if (++files_ > kMaxFiles) {
@@ -83,7 +83,8 @@ class Includer {
     try {
       text = read_input_file(file);
     } catch (const std::invalid_argument& why) {
-      errors_.add(position, from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + where_scenarios_are(file));
+      errors_.add(position,
+                  from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + installed_scenarios_advice(file));
       return {};
     }
     read_.insert(file.lexically_normal());
@@ -152,7 +153,8 @@ std::vector<std::string> split_path(std::string_view path) {
   return keys;
 }
 
-/// Item or value under `node`, made when a map lacks it; null, with a fault, where nothing can be.
+/// Returns the item or value under `node`, which a map gains if it is missing; null, with an error, if it is
+/// impossible.
 Node* step_into(Node& node, const std::string& key, const std::string& path, const SourcePosition& position,
                 ErrorList& errors) {
   if (node.kind == Node::Kind::list) {
@@ -211,8 +213,8 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   Node* node = &root;
   std::string path;
   for (size_t i = 0; i < keys.size(); ++i) {
-    // Another choice of type takes the other keys of the old one with it.
-    // A library leaves the module's name, which may have been set before it.
+    // Another choice discards the keys of the previous choice.
+    // `plugin` keeps the module's name, which may have been set before.
     if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], value)) {
       node->entries.clear();
     }

@@ -17,11 +17,11 @@ Node load_tree(const std::filesystem::path& file, ErrorList& errors);
 /// @param read  gains every file that was read.
 Node load_tree(const std::filesystem::path& file, ErrorList& errors, std::set<std::filesystem::path>& read);
 
-/// As load_tree(), of a text; its paths are relative to the working folder. @param name  for places, no path.
+/// As load_tree(), from a text; its paths are relative to the working folder. @param name  for positions, not a path.
 Node parse_tree(const std::string& text, const std::string& name, ErrorList& errors,
                 std::set<std::filesystem::path>& read);
 
-/// Overrides `base` with `over`: maps key by key (see kSelectors), all else by replacement.
+/// Overrides `base` with `over`: maps key by key (see kSelectors), other values by replacement.
 void override_with(Node& base, const Node& over);
 
 /// Applies `a.b.0.c=value` in order; the value is YAML. `a.b.use=file` replaces `a.b` by the file's map, its path
@@ -31,12 +31,11 @@ void override_with(Node& base, const Node& over);
 void apply_overrides(Node& root, std::span<const std::string> overrides, const std::filesystem::path& file,
                      ErrorList& errors, std::set<std::filesystem::path>& read);
 
-/// Returns the bytes of a file that a person wrote. Throws std::invalid_argument with the reason, without the file's
-/// name: there is none, it is no regular file (a folder, a device, a pipe that would never end), larger than 64 MB, or
-/// not to be read.
+/// Returns the bytes of an input file. Throws std::invalid_argument with the reason, without the file's name, if the
+/// file is missing, is not a regular file (folder, device, pipe), is larger than 64 MB, or cannot be read.
 std::string read_input_file(const std::filesystem::path& file);
 
-/// The scenarios that are installed with the program that runs; empty where none are.
+/// Returns the folder of the scenarios installed with the running program; empty if there is no such folder.
 std::filesystem::path installed_configs();
 
 }  // namespace hedgehop::sim

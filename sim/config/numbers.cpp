@@ -34,7 +34,7 @@ ParsedNumber parse_number(std::string_view text, bool degrees) {
     const std::string_view bare = text.substr(text.starts_with('-') ? 1 : 0);
     if (bare == word || (bare.starts_with('.') && bare.substr(1) == word)) return {Kind::not_finite};
   }
-  // from_chars also reads words such as "infinity": a number has a digit or a point after its sign.
+  // from_chars also reads words such as "infinity"; a number has a digit or a point after its sign.
   const size_t first = text.starts_with('-') ? 1 : 0;
   if (first >= text.size() || (text[first] != '.' && (text[first] < '0' || text[first] > '9'))) return {};
 
@@ -59,12 +59,12 @@ std::optional<uint64_t> parse_unsigned(std::string_view text) { return parse_who
 std::string number_text(double member, bool degrees) {
   if (!degrees) return fmt::format("{}", member);
   const long double exact = static_cast<long double>(member) * (180.0L / std::numbers::pi_v<long double>);
-  constexpr int kMostDigits = std::numeric_limits<long double>::max_digits10;
-  // Not fewer digits than stand before the point, or 90 would be written 9e+01.
+  constexpr int kMaxDigits = std::numeric_limits<long double>::max_digits10;
+  // At least as many digits as before the point; otherwise 90 would be written 9e+01.
   const double magnitude = std::abs(static_cast<double>(exact));
   const int least = magnitude >= 1.0 && magnitude < 1e15 ? 1 + static_cast<int>(std::log10(magnitude)) : 1;
   std::string text;
-  for (int digits = least; digits <= kMostDigits; ++digits) {
+  for (int digits = least; digits <= kMaxDigits; ++digits) {
     text = fmt::format("{:.{}g}", exact, digits);
     const ParsedNumber back = parse_number(text, true);
     if (back.kind == ParsedNumber::Kind::number && back.member == member &&

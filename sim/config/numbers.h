@@ -5,23 +5,23 @@
 #include <string>
 #include <string_view>
 
-/// Numbers as YAML holds them. Text to value and back is exact: every finite member value has a text that reads back to
+/// Numbers in YAML. The conversion is exact in both directions: every finite member value has a text that reads back to
 /// the same bits.
 namespace hedgehop::sim {
 
-/// A text's number, or why it is none.
+/// The number of a text, or the reason why the text is not a number.
 struct ParsedNumber {
   enum class Kind { number, not_a_number, not_finite } kind = Kind::not_a_number;
   double member = 0.0;  ///< in the unit of the member
 };
 
-/// Decimal numbers such as 3, -0.5, +1e3; ".inf", ".nan" and what no double can hold are not finite.
+/// Parses decimal numbers such as 3, -0.5, +1e3; ".inf", ".nan" and numbers beyond a double are not finite.
 ParsedNumber parse_number(std::string_view text, bool degrees);
-/// Decimal integers only. Nothing when it is none or does not fit.
+/// Parse decimal integers only; empty if the text is not an integer or does not fit.
 std::optional<int64_t> parse_signed(std::string_view text);
 std::optional<uint64_t> parse_unsigned(std::string_view text);
 
-/// The shortest decimal that parse_number() turns into exactly `member`, which is finite.
+/// Returns the shortest decimal that parse_number() converts to exactly `member`, which must be finite.
 std::string number_text(double member, bool degrees);
 
 }  // namespace hedgehop::sim

@@ -13,11 +13,11 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kMaxNodes = 200'000;    // a scenario has hundreds; aliases of aliases could make billions
+constexpr size_t kMaxNodes = 200'000;    // a scenario has hundreds; nested aliases could give billions
 constexpr size_t kMaxKeys = 2'000;       // of one map
 constexpr size_t kMaxBytes = 4'000'000;  // 200,000 values of 20 letters
 
-/// The document is larger than any that is meant; the rest is not read.
+/// The document is too large; the rest is not read.
 struct TooLarge {
   SourcePosition position;
   std::string what;
@@ -41,7 +41,7 @@ class Builder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = make(Node::Kind::null, mark, "", anchor);
-    // An empty value is marked where the next token stands; the place of its key is clearer.
+    // The parser marks an empty value at the next token; the position of its key is clearer.
     if (!open_.empty() && open_.back().has_key && node.position.line > open_.back().key_position.line) {
       node.position = open_.back().key_position;
     }
@@ -58,7 +58,7 @@ class Builder : public YAML::EventHandler {
     const auto named = anchors_.find(anchor);
     Node node = make(Node::Kind::null, mark, "", 0);
     if (named == anchors_.end()) {
-      errors_.add(node.position, "an alias stands inside what it names");
+      errors_.add(node.position, "an alias is inside its own anchor");
     } else if (const size_t count = count_nodes(named->second); nodes_ + count > kMaxNodes) {
       if (!too_many_) errors_.add(node.position, "aliases make the document too large");
       too_many_ = true;
@@ -83,7 +83,7 @@ class Builder : public YAML::EventHandler {
   struct Open {
     Node node;
     YAML::anchor_t anchor = 0;
-    bool has_key = false;  ///< of a map: a key waits for its value
+    bool has_key = false;  ///< of a map: a key has no value yet
     bool drop = false;     ///< ... which is discarded
     std::string key = {};
     SourcePosition key_position = {};
@@ -171,8 +171,8 @@ class Builder : public YAML::EventHandler {
   bool too_many_ = false;
 };
 
-/// Why a text is not even scanned, which takes up to 130 bytes and 0.2 us for a letter; empty when it is.
-std::string beyond_measure(const std::string& text) {
+/// Returns why a text is not scanned, which costs up to 130 bytes and 0.2 us per letter; empty if it is scanned.
+std::string size_error(const std::string& text) {
   if (text.size() > kMaxBytes) return fmt::format("more than {} MB of YAML", kMaxBytes / 1'000'000);
   const auto opens = std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; });
   return static_cast<size_t>(opens) > kMaxNodes ? fmt::format("more than {} lists and maps", kMaxNodes) : "";
@@ -181,8 +181,8 @@ std::string beyond_measure(const std::string& text) {
 }  // namespace
 
 Node parse_yaml(const std::string& text, const std::string& file, ErrorList& errors) {
-  if (std::string fault = beyond_measure(text); !fault.empty()) {
-    errors.add({file, 1, 1}, std::move(fault));
+  if (std::string error = size_error(text); !error.empty()) {
+    errors.add({file, 1, 1}, std::move(error));
     return {};
   }
   std::istringstream stream(text);
@@ -207,7 +207,7 @@ Node parse_yaml(const std::string& text, const std::string& file, ErrorList& err
   } catch (const YAML::DeepRecursion& error) {
     errors.add({file, error.mark.line + 1, error.mark.column + 1}, "lists and maps are nested too deeply");
   } catch (const YAML::Exception& error) {
-    // The parser stumbles over the key after the one that lacks its colon.
+    // The parser reports the key after the key that lacks its colon.
     const std::string advice = error.msg == YAML::ErrorMsg::MAP_VALUE ? "; does the line before lack a colon?" : "";
     errors.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg + advice);
   } catch (const std::exception& error) {

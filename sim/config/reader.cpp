@@ -9,7 +9,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// "a number", "a number in m".
+/// Returns "a number" or "a number in m".
 std::string number_words(std::string_view noun, const fields::Field& field) {
   return field.unit.empty() ? std::string(noun) : fmt::format("{} in {}", noun, field.unit);
 }
@@ -27,7 +27,7 @@ void expected(std::string_view what, const Node& node, const std::string& path, 
 
 bool is_plain_scalar(const Node& node) { return node.kind == Node::Kind::scalar && !node.quoted; }
 
-/// A whole number that its type cannot hold, or no whole number at all.
+/// Refuses a whole number out of its type's range, or a text that is not a whole number.
 template <class T>
 void refuse_integer(T lowest, T highest, const Node& node, const std::string& path, const fields::Field& field,
                     ErrorList& errors) {
@@ -145,7 +145,7 @@ bool expect_map(const Node& node, const std::string& path, ErrorList& errors) {
 }
 
 void StructReader::missing(std::string_view key, const fields::Field& field) const {
-  if (map_.incomplete) return;  // the file that is not there may have it
+  if (map_.incomplete) return;  // the unreadable file may have it
   const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
   const std::string meaning = field.meaning.empty() ? "" : fmt::format(": {}{}", field.meaning, unit);
   errors_.add(map_.position, fmt::format("missing key '{}' in {}{}", key, errors_.path_text(path_), meaning));

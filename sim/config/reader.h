@@ -12,11 +12,11 @@
 #include "sim/fields/field.h"
 #include "sim/fields/field_types.h"
 
-/// From a tree to config structs, by their describe(). Strict: what does not fit goes to ErrorList and leaves the
-/// member.
+/// Reads config structs from a tree through their describe(). Strict: an invalid value adds an error and leaves the
+/// member unchanged.
 namespace hedgehop::sim {
 
-// Each reads one value or adds a fault; `path` is dotted, from the root.
+// Each reads one value or adds an error; `path` is dotted, from the root.
 std::optional<double> read_number(const Node& node, const std::string& path, const fields::Field& field,
                                   ErrorList& errors);
 std::optional<int64_t> read_signed(const Node& node, const std::string& path, const fields::Field& field,
@@ -25,12 +25,12 @@ std::optional<uint64_t> read_unsigned(const Node& node, const std::string& path,
                                       uint64_t highest, ErrorList& errors);
 std::optional<bool> read_bool(const Node& node, const std::string& path, ErrorList& errors);
 std::optional<std::string> read_text(const Node& node, const std::string& path, ErrorList& errors);
-/// The path of a file, made absolute: one written in a file counts from that file's folder, one after --set from the
+/// Returns the absolute path of a file. A path in a file is relative to that file's folder, a path after --set to the
 /// working folder. An empty text is an empty path.
 std::optional<std::filesystem::path> read_path(const Node& node, const std::string& path, ErrorList& errors);
 std::optional<size_t> read_choice(const Node& node, const std::string& path,
                                   const std::vector<std::string_view>& choices, ErrorList& errors);
-/// Whether the node is a list (of `size` items when that is not 0) or a map; a fault otherwise.
+/// Whether the node is a list (of `size` items unless that is 0) or a map; adds an error otherwise.
 bool expect_list(const Node& node, const std::string& path, size_t size, ErrorList& errors);
 bool expect_map(const Node& node, const std::string& path, ErrorList& errors);
 
@@ -76,10 +76,10 @@ void read_struct(const Node& node, const std::string& path, std::string_view sel
   reader.finish();
 }
 
-/// Of a name under `selector` whose alternative is chosen by a key of its own.
+/// Refuses a name under `selector` whose alternative is chosen by its own key.
 void refuse_key_as_choice(const Node& name, std::string_view selector, ErrorList& errors);
 
-/// Reads the alternative that one of the map's keys identifies by itself. @return whether there is one.
+/// Reads the alternative that one key of the map chooses by itself. @return whether there is one.
 template <fields::VariantField T>
 bool read_chosen_by_key(const Node& node, const std::string& path, T& value, ErrorList& errors) {
   bool chosen = false;
@@ -95,7 +95,7 @@ bool read_chosen_by_key(const Node& node, const std::string& path, T& value, Err
   return chosen;
 }
 
-/// The name under `selector` picks the alternative, which is read from the same map upon its defaults.
+/// Reads the alternative that the name under `selector` chooses from the same map, starting from its defaults.
 template <fields::VariantField T>
 void read_variant(const Node& node, const std::string& path, const fields::Field& field, T& value, ErrorList& errors) {
   if (!expect_map(node, path, errors) || read_chosen_by_key(node, path, value, errors)) return;
@@ -106,7 +106,7 @@ void read_variant(const Node& node, const std::string& path, const fields::Field
   const Node* selector = node.find(field.selector);
   bool named_by_key = false;
   if (!selector) {
-    if (node.incomplete) return;  // the file that is not there may have it
+    if (node.incomplete) return;  // the unreadable file may have it
     errors.add(node.position, "missing key '" + std::string(field.selector) + "' in " + errors.path_text(path) +
                                   suggestion("", names));
     return;

@@ -16,7 +16,7 @@ using Kind = ConfigOutline::Kind;
 
 constexpr size_t kWorthSharing = 300;  // letters
 
-/// Calls `visit` with each schema right below `schema` and a name for it.
+/// Calls `visit` with each direct part of `schema` and a name for it.
 template <class Visit>
 void each_part(Json& schema, const std::string& name, Visit visit) {
   for (auto& [keyword, rule] : schema.items()) {
@@ -39,7 +39,7 @@ class Sharing {
   }
 
  private:
-  // A part within one that was met before is written once with it.
+  // The parts of a part that occurred before are written once with it.
   void count(Json& schema) {
     if (++uses_[schema.dump()] > 1) return;
     each_part(schema, "", [this](Json& part, const std::string&) { count(part); });
@@ -78,7 +78,7 @@ std::string description(const fields::Field& field) {
   return field.meaning.empty() ? fmt::format("[{}]", field.unit) : fmt::format("{} [{}]", field.meaning, field.unit);
 }
 
-/// The value as JSON; numbers by way of their text, so that 0.1 stays 0.1.
+/// Returns the value as JSON; numbers are parsed from their text, so that 0.1 remains 0.1.
 Json value_of(const ConfigOutline& node) {
   if (!node.present) return nullptr;
   switch (node.kind) {
@@ -110,14 +110,14 @@ Json bounds_of(const ConfigOutline& node) {
   return schema;
 }
 
-/// Whether some key under these fields must stand there, unless a file that is used gives it.
+/// Whether a key under these fields is required, unless a used file gives it.
 bool demands_something(const std::vector<ConfigOutline>& fields) {
   return std::any_of(fields.begin(), fields.end(), [](const ConfigOutline& field) {
     return field.field.required || field.kind == Kind::variant || demands_something(field.parts);
   });
 }
 
-/// A map of these fields and no others. Laid over a used file (`partial`) it may leave out any of them.
+/// Returns the schema of a map of these fields only. With `partial`, all are optional, because a used file gives them.
 /// @param selector, name  a first key of constant value, unless they are empty.
 Json closed_map(const std::vector<ConfigOutline>& fields, std::string_view selector, std::string_view name,
                 bool partial) {
@@ -146,7 +146,7 @@ Json group_schema(const std::vector<ConfigOutline>& fields, std::string_view sel
           {"else", closed_map(fields, selector, name, false)}};
 }
 
-/// A map without the selector, which a used file gives: any key of any choice.
+/// Returns the schema of a map without the selector, which a used file gives: any key of any choice.
 Json unnamed_choice(const ConfigOutline& node, bool partial) {
   Json properties = {{"use", {{"type", "string"}}}};
   for (const ConfigOutline& choice : node.all) {
@@ -158,7 +158,7 @@ Json unnamed_choice(const ConfigOutline& node, bool partial) {
   return schema;
 }
 
-/// One rule a choice, so that what is told of a wrong key is told of the choice it stands in.
+/// One rule per choice, so that an editor reports a wrong key for the choice that contains it.
 Json variant_schema(const ConfigOutline& node, bool partial) {
   const std::string selector(node.field.selector);
   const Json selected = {{"type", "object"}, {"required", {selector}}};

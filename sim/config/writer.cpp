@@ -14,7 +14,7 @@ std::string scalar(const ConfigOutline& node) {
 
 void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out);
 
-/// What follows "key:" or the like: on the same line for scalars and lists of them, else below, indented.
+/// Appends the value after "key:": on the same line for scalars and lists of scalars, otherwise on indented lines.
 void write_value(const ConfigOutline& node, int indent, std::string& out) {
   if (!node.present) {
     out += " ~\n";
@@ -29,7 +29,7 @@ void write_value(const ConfigOutline& node, int indent, std::string& out) {
     for (const ConfigOutline& item : node.parts) {
       std::string text;
       write_value(item, indent + 2, text);
-      // A map's first key stands beside the dash, where the line break and the indent would be.
+      // The first key of a map follows the dash instead of the line break and the indent.
       const bool has_keys = text.starts_with('\n');
       out += fmt::format("{:{}}-{}", "", indent, has_keys ? text.substr(static_cast<size_t>(indent) + 2) : text);
     }

@@ -15,19 +15,19 @@
 #include "sim/fields/field_types.h"
 #include "sim/fields/invalid_field.h"
 
-/// Judges values against the bounds of their fields: for the YAML reader and for every library that takes a config.
+/// Checks values against the bounds of their fields, for the YAML reader and every library that takes a config.
 namespace hedgehop::fields {
 
-/// Whether the field's unit is degrees or degrees a second, whose member is in radians.
+/// Whether the field's unit is degrees or degrees per second; its member is in radians.
 inline bool is_degrees(std::string_view unit) { return unit == "deg" || unit == "deg/s"; }
 
-/// Returns an angle in radians. The conversion has more digits than a double: the doubles in radians are here and there
-/// closer together than those in degrees, and each of them must have a decimal in degrees.
+/// Returns an angle in radians. The conversion has more digits than a double, because doubles in radians can be closer
+/// together than doubles in degrees, and each of them must have a decimal in degrees.
 inline double to_radians(long double degrees) {
   return static_cast<double>(degrees * (std::numbers::pi_v<long double> / 180.0L));
 }
 
-/// Returns the shortest decimal of `value`, without an exponent where that is readable.
+/// Returns the shortest decimal of `value`, without an exponent if that is readable.
 inline std::string decimal(double value) {
   const double magnitude = std::abs(value);
   const bool readable = magnitude == 0.0 || (magnitude >= 1e-4 && magnitude < 1e15);
@@ -37,7 +37,7 @@ inline std::string decimal(double value) {
   return {text, end.ptr};
 }
 
-/// Returns what a value must be and is not: "finite", "> 0 m", "<= 90 deg"; nothing when it is within its bounds.
+/// Returns the bound that a value violates: "finite", "> 0 m", "<= 90 deg"; empty if it is within its bounds.
 /// @param member  in the unit of the member: rad and rad/s for fields in deg and deg/s.
 /// @param listed  as describe() lists it; a side without a bound has the limit of the unit.
 inline std::optional<std::string> broken_bound(double member, const Field& listed) {

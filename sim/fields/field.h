@@ -9,8 +9,8 @@
 
 namespace hedgehop::fields {
 
-/// What `describe(visitor, config)` lists of one field. Bounds are in the unit that YAML uses ("deg" and "deg/s" are
-/// read as degrees into a member in radians; every other unit is SI and read as it stands).
+/// The properties of one field in `describe(visitor, config)`. Bounds are in the unit of YAML: "deg" and "deg/s" are
+/// read as degrees into a member in radians; every other unit is SI and read unchanged.
 struct Field {
   std::string_view unit = "";                  ///< "m", "s", "deg", "deg/s", "Hz", "px", "m/s", "kg", ...; "" for none
   std::optional<double> above = {};            ///< value > above
@@ -18,7 +18,7 @@ struct Field {
   std::optional<double> below = {};            ///< value < below
   std::optional<double> at_most = {};          ///< value <= at_most
   std::vector<std::string_view> choices = {};  ///< for an enum: choices[i] names the enumerator of value i
-  bool required = false;                       ///< a missing key is a fault
+  bool required = false;                       ///< a missing key is an error
   std::string_view selector = "type";  ///< for a std::variant of structs with kName: the key that names the choice
   std::string_view meaning = "";
 };
@@ -34,20 +34,20 @@ constexpr auto& base(Config& config) {
   return static_cast<std::conditional_t<std::is_const_v<Config>, const Base, Base>&>(config);
 }
 
-/// Returns the greatest magnitude of a field in this unit that states no bound of its own; nothing for other units.
-/// They keep what is computed from a config finite.
+/// Returns the maximum magnitude of a field in this unit without a bound of its own; empty for other units. The limits
+/// keep all results of a config finite.
 constexpr std::optional<double> unit_limit(std::string_view unit) {
-  if (unit == "m") return 100e3;  // farther out, the images' single precision shows (8 mm)
-  if (unit == "m/s") return 1e3;  // no rotorcraft, obstacle or wind is as fast
-  if (unit == "s") return 1e9;    // longer than any flight: a time constant that stands for never
+  if (unit == "m") return 100e3;  // beyond it, the single precision of images is visible (8 mm)
+  if (unit == "m/s") return 1e3;  // beyond any rotorcraft, obstacle or wind
+  if (unit == "s") return 1e9;    // longer than any flight, so a time constant may mean "never"
   if (unit == "px") return 1e6;   // beyond any image
   return {};
 }
 
-/// The lowest rate of what happens again and again, Hz: once in 100 s.
+/// Minimum rate of periodic events, Hz: once in 100 s.
 inline constexpr double kMinRateHz = 0.01;
 
-/// Returns the field with a bound on either side where its unit has a limit.
+/// Returns the field with a bound on both sides if its unit has a limit.
 inline Field bounded(Field field) {
   if (const std::optional<double> limit = unit_limit(field.unit)) {
     if (!field.above && !field.at_least) field.at_least = -*limit;

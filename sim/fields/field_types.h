@@ -45,13 +45,13 @@ template <class T>
 concept IntegerField = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
 concept ChoiceField = std::is_enum_v<T>;
-/// A map that is kept as it was written, for others to read: its type has a kIsOpen.
+/// A map that is stored uninterpreted, for other readers: its type has a kIsOpen.
 template <class T>
 concept OpenField = requires {
   T::kIsOpen;
 };
-/// A variant whose alternatives its own source file alone knows, so that nothing else is compiled again with them: its
-/// type has a kIsSealed, and reads, outlines and judges itself.
+/// A variant whose alternatives are visible in its own source file only, so that other sources are not recompiled with
+/// them: its type has a kIsSealed, and reads, outlines and checks itself.
 template <class T>
 concept SealedField = requires {
   T::kIsSealed;

@@ -6,7 +6,7 @@
 
 namespace hedgehop::fields {
 
-/// A config that is refused because of one of its fields. what() is "key: message".
+/// Error of a config in one of its fields; its text is "key: message".
 class InvalidField : public std::invalid_argument {
  public:
   /// @param key  dotted, from the config.

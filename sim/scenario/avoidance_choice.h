@@ -14,7 +14,7 @@ struct Widened<std::variant<Choices...>, More...> {
   using type = std::variant<Choices..., More...>;
 };
 
-/// Who includes this is compiled again with every module's config.
+/// A source that includes this header is recompiled with every module's config.
 struct AvoidanceConfig::Choice {
   Widened<avoidance::ModuleConfig, PluginConfig, PythonConfig>::type module;
 };

@@ -18,7 +18,7 @@ namespace hedgehop::sim {
 
 struct ConfigOutline;
 
-/// A module from a shared library. Its parameters are read by the library's own description, when a flight begins:
+/// A module from a shared library. The library's own description reads its parameters at the start of a flight, because
 /// reading a scenario loads no foreign code.
 struct PluginConfig {
   static constexpr std::string_view kName = "plugin";
@@ -33,16 +33,16 @@ struct PluginConfig {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PluginConfig> auto& c) {
   v("plugin", c.plugin, {.required = true, .meaning = "shared library, relative to this file"});
-  v("module", c.module, {.required = true, .meaning = "which of the library's modules"});
+  v("module", c.module, {.required = true, .meaning = "module of the library"});
   v("limit", c.limit_s,
     {.unit = "s",
      .above = 0.0,
      .at_most = 3600.0,
-     .meaning = "wall time of a call after which the module counts as hung"});
-  v("parameters", c.parameters, {.meaning = "the module's own, read as strictly"});
+     .meaning = "maximum wall time of a call; a slower module counts as hung"});
+  v("parameters", c.parameters, {.meaning = "the module's own parameters"});
 }
 
-/// A module written in Python. Its class checks its own parameters, when a flight begins.
+/// A module in Python. Its class checks its own parameters at the start of a flight.
 struct PythonConfig {
   static constexpr std::string_view kName = "python";
   static constexpr std::string_view kMeaning = "a module written in Python (docs/python.md)";
@@ -55,11 +55,11 @@ struct PythonConfig {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PythonConfig> auto& c) {
   v("python", c.python, {.required = true, .meaning = "source file, relative to this file"});
-  v("class", c.class_name, {.required = true, .meaning = "the module's class in it"});
+  v("class", c.class_name, {.required = true, .meaning = "class of the module"});
   v("parameters", c.parameters, {.meaning = "keyword arguments of the class"});
 }
 
-/// Who decides where to fly: a module of this tree, or one from outside, with its parameters.
+/// The avoidance module with its parameters: a module of this tree or a foreign module.
 class AvoidanceConfig {
  public:
   static constexpr bool kIsSealed = true;
@@ -69,14 +69,14 @@ class AvoidanceConfig {
   AvoidanceConfig(Choice choice);  // NOLINT(google-explicit-constructor): a choice is one
   const Choice& choice() const { return *choice_; }
 
-  /// Under which the module stands in a scenario.
+  /// Returns the name of the module in scenarios.
   std::string_view name() const;
-  /// A module's whose code lies outside this tree and is loaded when a flight begins; else null.
+  /// The config of a foreign module, which is loaded at the start of a flight; else null.
   const PluginConfig* plugin() const;
   const PythonConfig* python() const;
   bool is_foreign() const { return plugin() || python(); }
-  /// Makes a module of this tree; null for a foreign one: reading a scenario loads no foreign code. Throws
-  /// std::invalid_argument on a bad config.
+  /// Returns a module of this tree; null for a foreign module, because reading a scenario loads no foreign code. Throws
+  /// std::invalid_argument on an invalid config.
   std::unique_ptr<avoidance::Module> make() const;
 
   // As every sealed field (field_types.h).

@@ -9,40 +9,41 @@
 
 #include "sim/fields/field.h"
 
-/// What a scenario asserts of its flight.
+/// The checks of a flight in its scenario.
 namespace hedgehop::sim {
 
 struct ReachedGoalCheck {
   static constexpr std::string_view kName = "reached_goal";
   static constexpr std::string_view kMeaning = "the flight ends at the goal, in the plan and in height";
-  std::optional<double> within_m;  ///< horizontal; the goal's radius when not given
-  std::optional<double> before_s;  ///< the scenario's duration when not given
+  std::optional<double> within_m;  ///< horizontal; default: the goal's radius
+  std::optional<double> before_s;  ///< default: the scenario's duration
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<ReachedGoalCheck> auto& c) {
-  v("within", c.within_m, {.unit = "m", .above = 0.0, .meaning = "distance to the goal; else the goal's radius"});
-  v("before", c.before_s, {.unit = "s", .above = 0.0, .meaning = "latest time; else the scenario's duration"});
+  v("within", c.within_m, {.unit = "m", .above = 0.0, .meaning = "distance to the goal; default: the goal's radius"});
+  v("before", c.before_s, {.unit = "s", .above = 0.0, .meaning = "latest time; default: the scenario's duration"});
 }
 
 struct NoCollisionCheck {
   static constexpr std::string_view kName = "no_collision";
   static constexpr std::string_view kMeaning =
-      "the hull has no contact; checked of every flight, unless the scenario says may_collide";
+      "the hull has no contact; implied unless the scenario has may_collide: true";
 };
 template <class Visitor>
 void describe(Visitor&, const NoCollisionCheck&) {}
 
 struct MinClearanceCheck {
   static constexpr std::string_view kName = "min_clearance";
-  static constexpr std::string_view kMeaning = "the hull keeps a distance";
+  static constexpr std::string_view kMeaning = "the hull keeps a minimum clearance";
   enum class To { anything, obstacles, ground };
   double at_least_m = 1.0;
   To to = To::obstacles;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MinClearanceCheck> auto& c) {
-  v("at_least", c.at_least_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "distance to keep"});
-  v("to", c.to, {.choices = {"anything", "obstacles", "ground"}, .meaning = "what to keep it from"});
+  v("at_least", c.at_least_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "minimum clearance"});
+  v("to", c.to,
+    {.choices = {"anything", "obstacles", "ground"}, .meaning = "objects to which the clearance is measured"});
 }
 
 struct AltitudeBandCheck {
@@ -52,8 +53,8 @@ struct AltitudeBandCheck {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<AltitudeBandCheck> auto& c) {
-  v("min", c.min_m, {.unit = "m", .required = true, .meaning = "lowest altitude"});
-  v("max", c.max_m, {.unit = "m", .required = true, .meaning = "highest altitude"});
+  v("min", c.min_m, {.unit = "m", .required = true, .meaning = "minimum altitude"});
+  v("max", c.max_m, {.unit = "m", .required = true, .meaning = "maximum altitude"});
 }
 
 struct InsideBoxCheck {
@@ -76,7 +77,7 @@ struct MaxSpeedCheck {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MaxSpeedCheck> auto& c) {
-  v("at_most", c.at_most_mps, {.unit = "m/s", .above = 0.0, .required = true, .meaning = "highest speed"});
+  v("at_most", c.at_most_mps, {.unit = "m/s", .above = 0.0, .required = true, .meaning = "maximum speed"});
 }
 
 struct MaxTiltCheck {
@@ -87,7 +88,7 @@ struct MaxTiltCheck {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MaxTiltCheck> auto& c) {
   v("at_most", c.at_most_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 180.0, .required = true, .meaning = "largest angle to the vertical"});
+    {.unit = "deg", .above = 0.0, .at_most = 180.0, .required = true, .meaning = "maximum angle to the vertical"});
 }
 
 /// The judge's own figures, docs/metrics.md; those that a flight lacks fail their checks.
@@ -128,8 +129,8 @@ struct MetricCheck {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MetricCheck> auto& c) {
   v("name", c.name, {.required = true, .meaning = "name of the metric, as in result.json"});
-  v("at_least", c.at_least, {.meaning = "lowest value, in the metric's unit"});
-  v("at_most", c.at_most, {.meaning = "highest value, in the metric's unit"});
+  v("at_least", c.at_least, {.meaning = "minimum, in the metric's unit"});
+  v("at_most", c.at_most, {.meaning = "maximum, in the metric's unit"});
 }
 
 struct FloorVisitedCheck {
@@ -158,10 +159,10 @@ struct PathToleranceCheck {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PathToleranceCheck> auto& c) {
   v("reference", c.reference, {.required = true, .meaning = "CSV file of the reference, relative to the scenario"});
-  v("at_most", c.at_most_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "largest deviation"});
+  v("at_most", c.at_most_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "maximum deviation"});
   v("measure", c.measure,
     {.choices = {"band", "frechet", "dtw"},
-     .meaning = "distance at equal times, or whatever the speed: discrete Frechet distance or mean of dynamic time "
+     .meaning = "distance at equal times, or independent of speed: discrete Frechet distance or mean of dynamic time "
                 "warping"});
 }
 
@@ -174,13 +175,14 @@ struct FormulaCheck {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FormulaCheck> auto& c) {
-  v("name", c.name, {.required = true, .meaning = "of the check in results, unlike those of other checks"});
-  v("formula", c.formula, {.required = true, .meaning = "such as 'always[2,end] (clearance >= 0.5)'; times in s"});
+  v("name", c.name, {.required = true, .meaning = "name of the check in results; must be unique"});
+  v("formula", c.formula,
+    {.required = true, .meaning = "formula, such as 'always[2,end] (clearance >= 0.5)'; times in s"});
 }
 
 struct NoTruthUsedCheck {
   static constexpr std::string_view kName = "no_truth_used";
-  static constexpr std::string_view kMeaning = "the avoidance module gets nothing true: truth_used is empty";
+  static constexpr std::string_view kMeaning = "the avoidance module receives no ground truth: truth_used is empty";
 };
 template <class Visitor>
 void describe(Visitor&, const NoTruthUsedCheck&) {}
@@ -188,7 +190,7 @@ void describe(Visitor&, const NoTruthUsedCheck&) {}
 struct RealtimeFactorCheck {
   static constexpr std::string_view kName = "realtime_factor";
   static constexpr std::string_view kMeaning =
-      "the flight is simulated fast enough; for benchmarks, since it depends on the machine and its load";
+      "the simulation is fast enough; for benchmarks, because it depends on the machine and its load";
   double at_least = 1.0;
 };
 template <class Visitor>

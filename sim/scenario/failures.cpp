@@ -94,11 +94,12 @@ std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, 
     const auto add = [&](std::string_view key, std::string message) {
       errors.push_back({fmt::format("failures.{}.{}", i, key), std::move(message)});
     };
-    if (f.at_s >= duration_s) add("at", fmt::format("is not before the flight's end ({} s)", duration_s));
+    if (f.at_s >= duration_s) add("at", fmt::format("must be before the end of the flight ({} s)", duration_s));
     if (f.until_s && *f.until_s <= f.at_s) add("until", fmt::format("must be greater than 'at' ({} s)", f.at_s));
-    if (f.until_s && *f.until_s > duration_s) add("until", fmt::format("is after the flight's end ({} s)", duration_s));
+    if (f.until_s && *f.until_s > duration_s)
+      add("until", fmt::format("is after the end of the flight ({} s)", duration_s));
     if (std::ranges::find(names, f.what) == names.end()) {
-      add("what", fmt::format("nothing here is called '{}'{}", f.what, suggestion(f.what, allowed)));
+      add("what", fmt::format("unknown device '{}'{}", f.what, suggestion(f.what, allowed)));
       continue;
     }
     const std::vector<Mode> modes = modes_of(f.what);

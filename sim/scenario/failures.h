@@ -14,7 +14,7 @@
 #include "sim/fields/field.h"
 #include "sim/scenario/rig.h"
 
-/// What fails in flight, when and how.
+/// Failures in flight.
 namespace hedgehop::sim {
 
 struct FailureConfig {
@@ -34,9 +34,10 @@ struct FailureConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FailureConfig> auto& c) {
-  v("at", c.at_s, {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "when it begins"});
+  v("at", c.at_s,
+    {.unit = "s", .at_least = 0.0, .at_most = 86400.0, .required = true, .meaning = "start of the failure"});
   v("until", c.until_s,
-    {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "when it is over; else it lasts to the flight's end"});
+    {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "end of the failure; default: the end of the flight"});
   v("what", c.what,
     {.required = true,
      .meaning = "gyros, accelerometers, gps, gps_velocity, height_sensor, magnetometer, barometer, range_finder, "
@@ -45,19 +46,19 @@ void describe(Visitor& v, fields::ConfigOf<FailureConfig> auto& c) {
   v("mode", c.mode,
     {.choices = {"off", "stuck", "bias", "noise", "black", "factor"},
      .required = true,
-     .meaning = "nothing; the last reading, image or position again; value added; white noise of value; images of 0; "
-                "value times the command"});
+     .meaning = "off: no output; stuck: the last reading, image or position; bias: value added; noise: white noise of "
+                "standard deviation value; black: images of 0; factor: value times the command"});
   v("value", c.value,
     {.at_least = -1e6,
      .at_most = 1e6,
-     .meaning = "of bias and noise: rad/s of gyros, m/s^2, m/s, m, Pa, deg of magnetometer and servos, s of link; of "
-                "factor: the share of its command that a motor or servo follows"});
+     .meaning = "of bias and noise, in rad/s (gyros), m/s^2, m/s, m, Pa, deg (magnetometer, servos) or s (link); of "
+                "factor: share of the command that a motor or servo follows"});
   v("axis", c.axis,
     {.choices = {"x", "y", "z"},
-     .meaning = "of a bias: forward, right, down of gyros, accelerometers and velocimeter; north, east, down of gps"});
+     .meaning = "axis of a bias: forward, right, down (gyros, accelerometers, velocimeter); north, east, down (gps)"});
 }
 
-/// The names that a scenario's failures may have.
+/// Returns the valid names of a scenario's failing devices.
 std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::VehicleConfig& vehicle);
 
 /// Returns the errors of a scenario's failures: names, modes, values, times, and two failures of one device at a time.
@@ -65,17 +66,17 @@ std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::Veh
 std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
                                        const dynamics::VehicleConfig& vehicle);
 
-/// "20 s to 22 s: camera.front black".
+/// Returns "20 s to 22 s: camera.front black".
 std::string to_text(const FailureConfig& failure);
 
-/// Those of sensors, as the avionics have them. @param run_seed  of the flight; each has its own stream.
+/// Returns the failures of sensors for the avionics. @param run_seed  of the flight; each failure has its own stream.
 std::vector<dynamics::sensors::SensorFailure> sensor_failures(std::span<const FailureConfig> failures,
                                                               uint64_t run_seed);
 
-/// What ails the vehicle's actuators at a time.
+/// Writes the actuator faults of the vehicle at a time.
 void actuator_faults(std::span<const FailureConfig> failures, int64_t t_ns, std::vector<dynamics::ActuatorFault>& out);
 
-/// The failure of a thing at a time, or null.
+/// Returns the failure of a device at a time, or null.
 const FailureConfig* failure_of(std::span<const FailureConfig> failures, std::string_view what, int64_t t_ns);
 
 }  // namespace hedgehop::sim

@@ -16,8 +16,8 @@
 #include "sim/scenario/inputs.h"
 #include "sim/scenario/scenario.h"
 
-/// The parts of a flight that follow from the scenario's parameters alone. A part is built once: the reader builds it
-/// to check its parameters, and the flight uses what the reader built.
+/// The parts of a flight that depend on the scenario's parameters only. Each part is built once: validation builds it
+/// to check its parameters, and the flight uses it.
 namespace hedgehop::avoidance {
 class Module;
 struct Setup;
@@ -27,7 +27,7 @@ namespace hedgehop::sim {
 
 struct Node;
 
-/// The vehicle, its air and its avionics.
+/// The vehicle, its wind and its avionics.
 struct AircraftParts {
   dynamics::Vehicle vehicle;
   dynamics::air::Wind wind;
@@ -41,27 +41,26 @@ struct FlightParts {
   ~FlightParts();
 
   AircraftParts aircraft;
-  std::unique_ptr<avoidance::Module> module;  ///< null for a module of a shared library, which the flight loads
+  std::unique_ptr<avoidance::Module> module;  ///< null for a foreign module, which the flight loads
 };
 
-/// A scenario, its parts, and the files it depends on. Who changes a parameter of a part afterwards, or the seed,
-/// builds the parts again.
+/// A scenario, its parts, and the files it depends on. After a change of the scenario, the parts must be built again.
 struct LoadedScenario {
   Scenario scenario;
   FlightParts parts;
   Inputs inputs;
-  std::shared_ptr<const Node> root;  ///< what it was read from
+  std::shared_ptr<const Node> root;  ///< the input as read
 };
 
 /// Returns the errors with the positions of their fields before them.
 /// @param root  of the scenario; null returns the errors unchanged.
 InputError at_positions(const Node* root, const InputError& error);
 
-/// Reads a scenario, as strictly as load_scenario(), and keeps the parts that were built to check it.
-/// @param seed  replaces the file's. Throws InputError with every fault found.
+/// Reads a scenario as strictly as load_scenario(), and returns the parts that its validation built.
+/// @param seed  replaces the file's. Throws InputError with every error found.
 LoadedScenario load_flight(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                            std::optional<uint64_t> seed = {});
-/// As above, of a text instead of a file; its paths are relative to the working folder.
+/// As above, from a text instead of a file; its paths are relative to the working folder.
 LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides = {},
                                 std::optional<uint64_t> seed = {});
 
@@ -69,17 +68,17 @@ LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::st
 FlightParts build_parts(const Scenario& scenario);
 AircraftParts build_aircraft(const Scenario& scenario);
 
-/// Builders of single parts. Throw std::invalid_argument on values that cannot be.
+/// Build single parts. Throw std::invalid_argument on invalid values.
 dynamics::air::Wind build_wind(const Scenario& scenario);
-/// @param carrier  the vehicle that the autopilot is designed for.
+/// @param carrier  vehicle for which the autopilot is designed.
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier);
 
-/// What a module is told before its flight. @param hull  of the vehicle.
+/// Returns the setup of a module before its flight. @param hull  of the vehicle.
 avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynamics::HullPart>& hull);
-/// As above, of the scenario's own vehicle.
+/// As above, for the scenario's own vehicle.
 avoidance::Setup module_setup(const Scenario& scenario);
 
-/// The scene of a flight, by the run's own seed. Throws std::invalid_argument on a scene that cannot be.
+/// Returns the scene of a flight for the run's seed. Throws std::invalid_argument on an invalid scene.
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);
 
 }  // namespace hedgehop::sim

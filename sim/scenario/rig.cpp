@@ -35,10 +35,10 @@ void require(bool holds, std::string_view key, const std::string& message) {
   if (!holds) throw fields::InvalidField(std::string(key), message);
 }
 
-/// Principal point and focal lengths, where `fov_focal_px` is what the field of view asks for.
+/// Sets principal point and focal lengths. @param fov_focal_px  focal length for the field of view.
 template <class Lens>
 void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
-  require(c.focal_x_px || !c.focal_y_px, "focal_y", "needs focal_x beside it");
+  require(c.focal_x_px || !c.focal_y_px, "focal_y", "needs focal_x too");
   lens.focal_x_px = c.focal_x_px.value_or(fov_focal_px);
   lens.focal_y_px = c.focal_y_px.value_or(lens.focal_x_px);
   lens.center_u_px = c.center_u_px.value_or(0.5 * (c.width_px - 1));
@@ -88,7 +88,7 @@ vision::camera::Camera ocam(const CameraConfig& c) {
   require(!c.calibration.empty(), "calibration", "model: ocam needs the file");
   require(
       !c.focal_x_px && !c.focal_y_px && !c.center_u_px && !c.center_v_px && !c.view_limit_rad && c.distortion.empty(),
-      "calibration", "defines the lens; no other key of the lens may stand beside it");
+      "calibration", "defines the lens; remove the other keys of the lens");
   try {
     const vision::camera::Camera camera(vision::camera::parse_ocam_calibration(read_input_file(c.calibration)));
     if (camera.width_px != c.width_px || camera.height_px != c.height_px) {

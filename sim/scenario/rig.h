@@ -15,8 +15,8 @@
 
 namespace hedgehop::sim {
 
-/// What a real camera does to its images. All off by default. Numbers are per camera, drawn from its own stream. Those
-/// of light, lens and sensor are for grey and color, disparity noise for depth, frame faults and readout for all.
+/// Imperfections of a real camera's images. All are off by default. Numbers are per camera, drawn from its own stream.
+/// Those of light, lens and sensor are for grey and color, disparity noise for depth, frame faults and readout for all.
 struct ImperfectionsConfig {
   /// Of the stereo pair that a depth camera stands for: [Andert2007] sec. 2. It turns disparity noise into depth noise.
   static constexpr double kBaselineM = 0.3;
@@ -28,8 +28,8 @@ struct ImperfectionsConfig {
   double read_noise = 0.0;          ///< standard deviation, grey levels
   double fixed_pattern = 0.0;       ///< standard deviation of the pixels' gains, constant over a flight
   double disparity_noise_px = 0.0;  ///< standard deviation, of focal length times kBaselineM over depth
-  double shutter_s = 0.0;           ///< how long the image is exposed
-  int shutter_samples = 8;          ///< most moments that a blurred image is the mean of
+  double shutter_s = 0.0;           ///< exposure time
+  int shutter_samples = 8;          ///< maximum number of moments averaged for motion blur
   double readout_s = 0.0;           ///< from the first row's exposure to the last's; 0: global shutter
   int readout_strips = 16;          ///< of rows that share a moment
   double drop = 0.0;                ///< probability that an image is lost
@@ -42,17 +42,17 @@ void describe(Visitor& v, fields::ConfigOf<ImperfectionsConfig> auto& c) {
   v("vignetting", c.vignetting,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of the brightness that is missing in the image's corners"});
   v("exposure", c.exposure_stops,
-    {.at_least = -10.0, .at_most = 10.0, .meaning = "stops by which images are brighter than drawn; white saturates"});
+    {.at_least = -10.0,
+     .at_most = 10.0,
+     .meaning = "stops by which images are brighter than rendered; white saturates"});
   v("auto_exposure", c.auto_exposure_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "time constant in which the mean is drawn to mid-grey; 0: fixed exposure"});
+     .meaning = "time constant of the control of mean brightness to mid-grey; 0: fixed exposure"});
   v("full_well", c.full_well,
-    {.at_least = 0.0, .meaning = "photo-electrons of a white pixel, whose count is noisy; 0: no photon noise"});
+    {.at_least = 0.0, .meaning = "photo-electrons of a white pixel, for photon noise; 0: no photon noise"});
   v("read_noise", c.read_noise,
-    {.at_least = 0.0,
-     .at_most = 255.0,
-     .meaning = "standard deviation of the noise of reading, in grey levels of 255"});
+    {.at_least = 0.0, .at_most = 255.0, .meaning = "standard deviation of the read noise, in grey levels of 255"});
   v("fixed_pattern", c.fixed_pattern,
     {.at_least = 0.0,
      .at_most = 1.0,
@@ -63,12 +63,11 @@ void describe(Visitor& v, fields::ConfigOf<ImperfectionsConfig> auto& c) {
      .at_most = 100.0,
      .meaning = "standard deviation of a depth camera's noise, as disparity of a pair with a baseline of 0.3 m"});
   v("shutter", c.shutter_s,
-    {.unit = "s", .at_least = 0.0, .at_most = 1.0, .meaning = "how long an image is exposed, ending at its instant"});
+    {.unit = "s", .at_least = 0.0, .at_most = 1.0, .meaning = "exposure time, which ends at the instant of the image"});
   v("shutter_samples", c.shutter_samples,
     {.at_least = 1,
      .at_most = 256,
-     .meaning = "most moments that an image with motion blur is the mean of; they lie at most 0.4 pixels apart where "
-                "these are enough"});
+     .meaning = "maximum number of moments averaged for motion blur; within it they are at most 0.4 pixels apart"});
   v("readout", c.readout_s,
     {.unit = "s",
      .at_least = 0.0,
@@ -79,7 +78,7 @@ void describe(Visitor& v, fields::ConfigOf<ImperfectionsConfig> auto& c) {
     {.at_least = 2, .at_most = 4096, .meaning = "strips of rows that a rolling shutter reads at one moment each"});
   v("drop", c.drop, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that an image is lost"});
   v("freeze", c.freeze,
-    {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that the last image comes again as a new one"});
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that the last image is delivered again"});
   v("black", c.black, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that an image is black"});
 }
 
@@ -98,25 +97,24 @@ struct CameraConfig {
   std::filesystem::path calibration;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
-  double corner_noise_px = 0.5;  ///< of a corner detector that works well
-  int samples = 1;               ///< samples in each pixel, averaged for grey and color: 1, 2, 4 or 8
+  double corner_noise_px = 0.5;  ///< typical of a good corner detector
+  int samples = 1;               ///< samples per pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   double row_error_px = 0.0, side_error_m = 0.0;     ///< of the calibration; the signs are drawn by the seed
-  std::optional<ImperfectionsConfig> imperfections;  ///< none: the rig's sensor, where it is for the channel
+  std::optional<ImperfectionsConfig> imperfections;  ///< none: the rig's sensor, for grey and color
 
-  /// Pose of the camera in B as its calibration has it: the mounting position, and yaw about down, pitch about right,
-  /// roll about forward, in that order, applied to a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg
-  /// looks down.
+  /// Returns the calibrated pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll
+  /// about forward, in this order, from a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
   Eigen::Isometry3d X_BC() const;
-  /// Throws std::invalid_argument that begins with the key at fault, for values out of bounds, keys that do not go
-  /// together or a calibration file that cannot be used.
+  /// Throws fields::InvalidField for values out of bounds, keys that contradict each other, or an invalid calibration
+  /// file.
   vision::camera::Camera model() const;
   /// Whether the lens is an undistorted pinhole.
   bool is_undistorted_pinhole() const;
 };
 
-/// All keys of a camera but its role.
+/// Lists all keys of a camera except its role.
 template <class Visitor>
 void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("model", c.model_kind,
@@ -128,32 +126,35 @@ void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
     {.unit = "deg",
      .above = 0.0,
      .below = 360.0,
-     .meaning = "horizontal field of view, less than 180 for a pinhole; focal_x takes its place"});
-  v("focal_x", c.focal_x_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a row; else from fov"});
-  v("focal_y", c.focal_y_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a column; else focal_x"});
-  v("center_u", c.center_u_px, {.unit = "px", .meaning = "column of the optical axis; else the middle"});
-  v("center_v", c.center_v_px, {.unit = "px", .meaning = "row of the optical axis; else the middle"});
-  v("distortion", c.distortion, {.meaning = "as OpenCV has it: k1 k2 p1 p2 k3 of a pinhole, k1 k2 k3 k4 of a fisheye"});
+     .meaning = "horizontal field of view, less than 180 for a pinhole; ignored with focal_x"});
+  v("focal_x", c.focal_x_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a row; default: from fov"});
+  v("focal_y", c.focal_y_px, {.unit = "px", .above = 0.0, .meaning = "focal length along a column; default: focal_x"});
+  v("center_u", c.center_u_px, {.unit = "px", .meaning = "column of the optical axis; default: the center"});
+  v("center_v", c.center_v_px, {.unit = "px", .meaning = "row of the optical axis; default: the center"});
+  v("distortion", c.distortion,
+    {.meaning = "coefficients of OpenCV: k1 k2 p1 p2 k3 of a pinhole, k1 k2 k3 k4 of a fisheye"});
   v("view_limit", c.view_limit_rad,
     {.unit = "deg",
      .above = 0.0,
      .at_most = 180.0,
-     .meaning = "angle off the axis where a fisheye's image ends; else as far as its lens goes"});
+     .meaning = "angle from the axis at which a fisheye's image ends; default: the limit of its lens"});
   v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "images a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "image rate; must divide the physics rate"});
   v("channel", c.channel,
     {.choices = {"grey", "color", "depth", "corners"},
-     .meaning = "what a pixel holds; or corners, from an ideal detector of the scene's known corners: truth, for an "
-                "experiment"});
+     .meaning = "pixel content; corners are ground truth from an ideal detector of the scene's known corners, for "
+                "experiments"});
   v("corner_noise", c.corner_noise_px,
-    {.unit = "px", .at_least = 0.0, .meaning = "of channel corners: standard deviation of a position, per axis"});
+    {.unit = "px",
+     .at_least = 0.0,
+     .meaning = "standard deviation of a corner position per axis, for channel corners"});
   v("samples", c.samples,
     {.at_least = 1,
      .at_most = 8,
      .meaning =
-         "places in each pixel that grey and color are the mean of: 1, 2, 4 or 8; refused where the OpenGL at hand "
-         "has others (Mesa's rasterizer: 1 and 4)"});
+         "samples per pixel of grey and color: 1, 2, 4 or 8; refused if the renderer does not support the number "
+         "(Mesa's rasterizer: 1 and 4)"});
   v("forward", c.forward_m, {.unit = "m", .meaning = "mounting position ahead of the body's origin"});
   v("right", c.right_m, {.unit = "m", .meaning = "mounting position right of the body's origin"});
   v("down", c.down_m, {.unit = "m", .meaning = "mounting position below the body's origin"});
@@ -161,8 +162,8 @@ void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "rotation upwards, second"});
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation clockwise, last"});
   v("imperfections", c.imperfections,
-    {.meaning = "noise, blur, rolling shutter and faults; none unless given here or, for grey and color, by the rig's "
-                "sensor"});
+    {.meaning =
+         "noise, blur, rolling shutter and frame faults; default: for grey and color, those of the rig's sensor"});
 }
 
 template <class Visitor>
@@ -172,17 +173,16 @@ void describe(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
     {.unit = "px",
      .at_least = 0.0,
      .at_most = 100.0,
-     .meaning = "error of the calibration: rows by which its image is truly higher or lower, by the seed"});
+     .meaning = "calibration error: rows by which the true image is higher or lower; the seed draws the sign"});
   v("side_error", c.side_error_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning =
-         "error of the calibration: how far along its rows it truly sits, to one side or the other by the seed"});
+     .meaning = "calibration error: true displacement along the rows; the seed draws the sign"});
   describe_without_role(v, c);
 }
 
-/// Two equal cameras, parallel and side by side along their rows as they are calibrated. The errors of the calibration
-/// are those of the right camera.
+/// Two equal parallel cameras, displaced along their rows as calibrated. The calibration errors are those of the right
+/// camera.
 struct StereoConfig {
   std::string role;
   double baseline_m = 0.3;
@@ -193,18 +193,17 @@ struct StereoConfig {
 
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<StereoConfig> auto& c) {
-  v("role", c.role, {.meaning = "the cameras are <role>_left and <role>_right; left and right when empty"});
-  v("baseline", c.baseline_m,
-    {.unit = "m", .above = 0.0, .meaning = "distance between the two; each half of it aside"});
+  v("role", c.role, {.meaning = "prefix of the roles <role>_left and <role>_right; left and right if empty"});
+  v("baseline", c.baseline_m, {.unit = "m", .above = 0.0, .meaning = "distance between the two cameras"});
   v("row_error", c.row_error_px,
     {.unit = "px",
      .at_least = 0.0,
      .at_most = 100.0,
-     .meaning = "error of the calibration: rows by which the right image is truly higher or lower, by the seed"});
+     .meaning = "calibration error: rows by which the true right image is higher or lower; the seed draws the sign"});
   v("baseline_error", c.baseline_error,
     {.at_least = 0.0,
      .at_most = 1.0,
-     .meaning = "error of the calibration: share by which the baseline is truly longer or shorter, by the seed"});
+     .meaning = "calibration error: share by which the true baseline is longer or shorter; the seed draws the sign"});
   describe_without_role(v, c.camera);
 }
 
@@ -212,21 +211,21 @@ void describe(Visitor& v, fields::ConfigOf<StereoConfig> auto& c) {
 struct RigConfig {
   std::vector<CameraConfig> cameras;
   std::vector<StereoConfig> stereo;
-  std::optional<ImperfectionsConfig> sensor;  ///< of every grey or color camera that states no imperfections
+  std::optional<ImperfectionsConfig> sensor;  ///< of every grey or color camera without imperfections
 
-  /// The camera of a role, or null.
+  /// Returns the camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
-  /// In words, what is amiss for one who needs a camera with this role and channel, and, with `pinhole`, an undistorted
-  /// pinhole; empty where nothing is.
+  /// Returns why the rig does not fulfil a need of a camera with this role and channel and, with `pinhole`, an
+  /// undistorted pinhole; empty if it does.
   std::vector<std::string> lacks(std::string_view role, CameraConfig::Channel channel, bool pinhole) const;
 };
 
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RigConfig> auto& c) {
-  v("cameras", c.cameras, {.meaning = "cameras, each of its own role"});
-  v("stereo", c.stereo, {.meaning = "pairs, each two more cameras; a resolved scenario lists them as such"});
+  v("cameras", c.cameras, {.meaning = "cameras, each with a unique role"});
+  v("stereo", c.stereo, {.meaning = "stereo pairs; a resolved scenario lists their cameras"});
   v("sensor", c.sensor,
-    {.meaning = "imperfections of every grey or color camera that states none; a resolved scenario lists them there"});
+    {.meaning = "imperfections of every grey or color camera without its own; a resolved scenario lists them there"});
 }
 
 /// Replaces every stereo pair by its two cameras, left before right, after the other cameras; then gives the rig's
@@ -236,9 +235,9 @@ void mount_rig(RigConfig& rig);
 /// Returns the angle that one pixel spans along a column at the optical axis, rad: 1 over the focal length in px.
 double pixel_angle_rad(const vision::camera::Camera& camera);
 
-/// Returns the pose in B from which a camera's images are drawn: that of its calibration, CameraConfig::X_BC(), and its
-/// errors. `side_error` moves it along its rows, `row_error` turns it about them, so that the image of what is far
-/// stands so many rows off at the optical axis.
+/// Returns the true pose of a camera in B: the calibrated pose, CameraConfig::X_BC(), with its errors. `side_error`
+/// moves the camera along its rows; `row_error` rotates it about them, which shifts distant points by that many rows at
+/// the optical axis.
 /// @param model  of the camera. @param seed  of the flight: the camera's own stream decides both signs.
 Eigen::Isometry3d true_X_BC(const CameraConfig& camera, const vision::camera::Camera& model, uint64_t seed);
 

@@ -128,7 +128,7 @@ class Validator {
   }
 
   void parts() {
-    if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' where it ends");
+    if (!scenario_.route.empty() && !scenario_.goal) add("route", "needs a 'goal' as its end");
     if (const std::optional<AltitudeBandConfig>& band = scenario_.altitude_band) {
       const double start_m = scenario_.start.altitude_m;
       if (!(band->min_m < band->max_m)) {
@@ -144,7 +144,7 @@ class Validator {
     });
     build("vehicle", [&] { vehicle_.emplace(scenario_.vehicle); });
     build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
-    // A fault of the vehicle is reported once: beside a bad one the avionics are checked with a good one.
+    // If the vehicle is invalid, the avionics are checked with a valid one, so that each error is reported once.
     const dynamics::VehicleConfig carrier = vehicle_ ? scenario_.vehicle : dynamics::VehicleConfig{};
     build("avionics", [&] { avionics_.emplace(build_avionics(scenario_, carrier)); });
   }
@@ -162,7 +162,7 @@ class Validator {
   }
 
  private:
-  /// None may be silently without effect.
+  /// Refuses imperfections that have no effect on the camera's channel.
   void imperfections(const std::string& path, const CameraConfig& camera) {
     const ImperfectionsConfig c = camera.imperfections.value_or(ImperfectionsConfig{});
     const auto refuse = [&](std::string_view key, bool is_on) {

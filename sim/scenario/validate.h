@@ -15,8 +15,7 @@ struct Validation {
   std::optional<FlightParts> parts;  ///< none if a part cannot be built
 };
 
-/// Who supplies the module that flies: the scenario, or the caller, who builds it. A caller's module is not validated,
-/// and the parts have no module then.
+/// Source of the module that flies. A module from the caller is not validated, and the parts then contain no module.
 enum class ModuleSource { scenario, caller };
 
 /// Checks the bounds of every field, mounts the rig (mount_rig()), then checks that the fields fit each other and that

@@ -12,7 +12,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// As results have it.
+/// Returns the name of a check as in results.
 std::string check_name(const CheckConfig& config) {
   return std::visit(
       []<class Check>(const Check& check) -> std::string {
@@ -42,10 +42,10 @@ class CheckValidator {
     if (!scenario_.goal) add(path, "the scenario has no goal to reach");
     if (check.within_m && scenario_.goal && *check.within_m < scenario_.goal->radius_m) {
       add(path + ".within",
-          fmt::format("is less than the goal's radius ({} m), where the flight ends", scenario_.goal->radius_m));
+          fmt::format("is less than the goal's radius ({} m), at which the flight ends", scenario_.goal->radius_m));
     }
     if (check.before_s && *check.before_s > scenario_.duration_s) {
-      add(path + ".before", fmt::format("is after the flight's end ({} s)", scenario_.duration_s));
+      add(path + ".before", fmt::format("is after the end of the flight ({} s)", scenario_.duration_s));
     }
   }
   void check(const std::string& path, const NoCollisionCheck&) {
@@ -60,7 +60,7 @@ class CheckValidator {
   }
   void check(const std::string& path, const MetricCheck& check) {
     if (!check.name.starts_with("module.") && std::ranges::find(kJudgesMetrics, check.name) == kJudgesMetrics.end()) {
-      add(path + ".name", fmt::format("is no figure of the judge{}; a module's own begins with 'module.'",
+      add(path + ".name", fmt::format("is not a metric{}; the names of a module's own metrics begin with 'module.'",
                                       suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
     }
     if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");

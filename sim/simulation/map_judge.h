@@ -8,11 +8,11 @@
 
 namespace hedgehop::sim {
 
-/// Scores a module's map during a flight, where the scene's corners are known.
+/// Scores a module's map during a flight if the scene has known corners.
 class MapJudge : public MapObserver {
  public:
   void on_map(const MapInstant& now) override;
-  /// Adds the map's metrics to the flight's result, and to its record which points are true.
+  /// Adds the map's metrics to the flight's result, and marks the true points in its record.
   void conclude(Flight& flight) const;
 
  private:

@@ -22,7 +22,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Adds the wall time of its life, for reports only.
+/// Adds the wall time of its lifetime to a sum, for reports only.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum_s) : sum_s_(sum_s), start_(std::chrono::steady_clock::now()) {}
@@ -37,10 +37,10 @@ class Stopwatch {
 
 }  // namespace
 
-/// Flights are the unit of parallelism. Once: OpenCV ends its threads when told, which two flights may not do at a
-/// time.
+/// Limits OpenCV to one thread, because flights are the unit of parallelism. It runs once, because two flights must not
+/// stop OpenCV's threads at the same time.
 void keep_opencv_to_one_thread() {
-  [[maybe_unused]] static const bool told = [] {
+  [[maybe_unused]] static const bool done = [] {
     cv::setNumThreads(1);
     return true;
   }();
@@ -95,7 +95,7 @@ class Simulation::Impl {
     throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, fmt::join(roles, ", ")));
   }
 
-  /// As if the flight ended now, where it goes on.
+  /// Returns the flight with its verdict, as if it ended now.
   Flight judged() const {
     Flight flight = episode_->flight();
     flight.result.wall_s = flying_s_;
@@ -185,7 +185,7 @@ const avoidance::MountedCamera& Simulation::camera(std::string_view role) const 
 
 cv::Mat Simulation::image(std::string_view role, ImageChannel channel) {
   if (channel == ImageChannel::flow)
-    throw std::invalid_argument("flow leads to another image: see flow_to_next_image()");
+    throw std::invalid_argument("optic flow needs a second image; use flow_to_next_image()");
   const size_t camera = impl_->camera(role);
   const Cameras::Instant now = impl_->episode().instant();
   return impl_->episode().cameras().image(camera, channel, now, now);

@@ -15,13 +15,13 @@
 #include "sim/render/renderer.h"
 #include "sim/scenario/flight_parts.h"
 
-/// Where a scenario becomes a flight: the loop simulates it, the verdict judges it.
+/// Connects the loop, which flies a scenario, with the verdict, which judges the flight.
 namespace hedgehop::sim {
 
 /// Makes the module of a flight: a new one for each.
 using ModuleMaker = std::function<std::unique_ptr<avoidance::Module>()>;
 
-/// How the vehicle truly moves: for who judges, never for who decides. Frames W and B of CONTRIBUTING.md.
+/// True motion of the vehicle, for checks and metrics, never for modules. Frames W and B of CONTRIBUTING.md.
 struct TrueMotion {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< m
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
@@ -30,67 +30,68 @@ struct TrueMotion {
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();  ///< of the air, m/s
 };
 
-/// A scenario in flight: flown to its end in one call, or stepped by who holds the clock. Equal scenarios and commands
-/// give equal flights, bit for bit, however they are stepped. Several may live in one process; each is used by the
-/// thread that made it.
+/// A scenario in flight, flown to its end in one call or stepped by the caller. Equal scenarios and commands give
+/// bit-identical flights, however they are stepped. A process may have several; each is used by the thread that made
+/// it.
 class Simulation {
  public:
-  /// Begins: cameras have exposed and sensors have read at time 0, nobody has decided.
-  /// @param watcher  may be null. Throws InputError for what only the assembled parts show (a scene that cannot be, a
-  /// module without its camera, a vehicle that cannot hover), std::runtime_error when there is no context to draw in.
+  /// Starts the flight: at time 0 the cameras have exposed and the sensors have read, before the first decision.
+  /// @param watcher  may be null. Throws InputError for errors that only the assembled parts show (an invalid scene, a
+  /// module without its camera, a vehicle that cannot hover), std::runtime_error if no context can be created.
   explicit Simulation(LoadedScenario loaded, FlightWatcher* watcher = nullptr);
-  /// As above, for a scenario that no file was read for: checks its bounds. @param module  in place of the scenario's.
+  /// As above, for a scenario from a program. It is validated like a file (validate()); the messages are equal, without
+  /// positions. @param module  replaces the scenario's module, which is not validated then.
   explicit Simulation(Scenario scenario, ModuleMaker module = {}, FlightWatcher* watcher = nullptr);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Begins again: the same flight. The scene and what draws it stay.
+  /// Starts the same flight again, with the same scene and renderer.
   void reset();
-  /// Begins another flight, with the world of its seed.
+  /// Starts the flight of another seed, with its world.
   void reset(uint64_t seed);
 
-  /// Lets the module decide now, if a decision is due, and flies on to the next one or to the end.
-  /// @return whether the flight goes on. Throws std::logic_error when it is over.
+  /// Lets the module decide if a decision is due, then flies to the next decision or to the end.
+  /// @return whether the flight continues. Throws std::logic_error if it is over.
   bool step();
-  /// Gives the command in place of the module's: it takes effect after the scenario's latency, as the module's would. A
-  /// speed above the vehicle's limit is scaled down to it. Throws std::invalid_argument when it is not finite.
+  /// As step(), but the command replaces the module's decision. It takes effect after the scenario's latency. A speed
+  /// above the vehicle's limit is scaled down to the limit. Throws std::invalid_argument if it is not finite.
   bool step(const avoidance::Command& command);
-  /// As step(), but one physics step. A command may be given on any, whether a decision is due or not.
+  /// As step(), but for one physics step. A command is allowed on any step, even if no decision is due.
   bool tick();
   bool tick(const avoidance::Command& command);
-  /// Lets the module fly on up to an instant, s from the start; where that is past, nothing happens. Throws InputError
-  /// when the flight ends before.
+  /// Lets the module fly to a time, s from the start; has no effect if that time is past. Throws InputError if the
+  /// flight ends before.
   void fly_to(double t_s);
   /// Lets the module fly to the end. @return result().
   Flight run();
 
-  /// Whether the flight has ended: then what is seen and true is that of its last moment.
+  /// Whether the flight has ended; seen() and truth() then return its last instant.
   bool over() const;
   /// Whether a decision is due now.
   bool decides() const;
   double t_s() const;  ///< from the start
   const Scenario& scenario() const;
 
-  /// What the module gets now: frames of its cameras where a decision is due, its own navigation, where to fly. The
-  /// images are good until the simulation moves on.
+  /// Returns the module's input: the frames of its cameras if a decision is due, its navigation, its goal. The images
+  /// are valid until the next step.
   avoidance::Observation seen() const;
   TrueMotion truth() const;
-  /// True clearances, and whether the vehicle touches.
+  /// Returns the true clearances, and whether the vehicle collides.
   const Proximity& proximity() const;
-  /// A camera of the rig, as those on board know it. Throws InputError, naming the rig's cameras, for another role.
+  /// Returns a camera of the rig as calibrated. Throws InputError with the rig's cameras for an unknown role.
   const avoidance::MountedCamera& camera(std::string_view role) const;
 
-  /// What a camera of the rig would deliver now, in any channel, with its imperfections. Does not disturb the flight.
+  /// Returns the image of a camera now, in any channel, with its imperfections. Does not change the flight.
   /// Throws InputError for a role that the rig lacks, std::invalid_argument for ImageChannel::flow.
   cv::Mat image(std::string_view role, ImageChannel channel);
-  /// Flies on by one period of the camera and returns the true flow of its image of before, CV_32FC2, px. Throws
-  /// InputError when the flight ends on the way.
+  /// Flies for one period of the camera and returns the true optic flow from its previous image, CV_32FC2, px. Throws
+  /// InputError if the flight ends before.
   cv::Mat flow_to_next_image(std::string_view role);
 
-  /// What the scenario's checks would say, did the flight end now.
+  /// Returns the results of the scenario's checks as if the flight ended now.
   std::vector<CheckResult> checks_so_far() const;
-  /// The judged flight. Throws std::logic_error while it goes on.
+  /// Returns the flight with its verdict. Throws std::logic_error before its end.
   Flight result() const;
 
  private:
@@ -98,12 +99,12 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Makes a module that hovers, and sees these cameras in the channels of the rig: for who gives all commands.
+/// Returns the maker of a module that hovers and receives these cameras, for callers that give all commands.
 /// Throws InputError for a role that the rig lacks.
 ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles);
 
-/// The packages that flights depend on, but for what draws, and what compiled them: "OpenCV 4.6.0, SLEEF 3.5.1, Eigen
-/// 3.4.0, Bullet 3.24, GNU 12.2.0".
+/// Returns the packages that flights depend on, except the renderer, and the compiler: "OpenCV 4.6.0, SLEEF 3.5.1,
+/// Eigen 3.4.0, Bullet 3.24, GNU 12.2.0".
 std::string package_versions();
 
 }  // namespace hedgehop::sim

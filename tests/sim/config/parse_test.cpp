@@ -51,7 +51,7 @@ TEST(Parse, AliasesAreCopiedButNotWithoutEnd) {
   Folder::write("a.yaml", "rotor: &r {radius: 3}\ntail: *r\n");
   EXPECT_EQ(load_struct<Sample>("a.yaml").tail->radius_m, 3.0);
   EXPECT_THAT(faults_of_file("rotors: &r [*r]\n"),
-              ElementsAre("a.yaml:1:13: an alias stands inside what it names",
+              ElementsAre("a.yaml:1:13: an alias is inside its own anchor",
                           "a.yaml:1:13: 'rotors.0' expects a map of keys, got an empty value"));
   std::string bomb = "words: [";
   for (int i = 0; i < 40; ++i) {
@@ -112,8 +112,8 @@ TEST(Use, RefusesCirclesAndWhatIsNoFile) {
   Folder folder;
   Folder::write("b.yaml", "rotor: {use: a.yaml}\n");
   EXPECT_THAT(faults_of_file("use: ./b.yaml\n"),
-              ElementsAre("b.yaml:1:14: 'use' runs in a circle: a.yaml -> b.yaml -> a.yaml"));
-  EXPECT_THAT(faults_of_file("use: a.yaml\n"), ElementsAre("a.yaml:1:6: 'use' runs in a circle: a.yaml -> a.yaml"));
+              ElementsAre("b.yaml:1:14: 'use' forms a circle: a.yaml -> b.yaml -> a.yaml"));
+  EXPECT_THAT(faults_of_file("use: a.yaml\n"), ElementsAre("a.yaml:1:6: 'use' forms a circle: a.yaml -> a.yaml"));
   EXPECT_THAT(faults_of_file("rotor: {use: c.yaml}\n"), ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"));
   EXPECT_THAT(faults_of_file("shape: {use: c.yaml, type: square}\n"),
               ElementsAre("a.yaml:1:14: there is no such file: 'c.yaml'"))

@@ -35,15 +35,15 @@ TEST(Failures, ThatFitAreReadAndWrittenBack) {
 
 TEST(Failures, OfUnknownThingsNameTheNearest) {
   EXPECT_THAT(faults_with("[{at: 1, what: camera.fornt, mode: off}]"),
-              ElementsAre(HasSubstr("'failures.0.what': nothing here is called 'camera.fornt'; did you mean "
+              ElementsAre(HasSubstr("'failures.0.what': unknown device 'camera.fornt'; did you mean "
                                     "'camera.front'?")));
   EXPECT_THAT(faults_with("[{at: 1, what: motor.0, mode: off}]"),
-              ElementsAre(HasSubstr("nothing here is called 'motor.0'")));  // of a helicopter
+              ElementsAre(HasSubstr("unknown device 'motor.0'")));  // of a helicopter
 }
 
 TEST(Failures, MustFitTheirTimesModesAndValues) {
   EXPECT_THAT(faults_with("[{at: 1e4, what: gps, mode: off}]"),
-              ElementsAre(HasSubstr("is not before the flight's end")));
+              ElementsAre(HasSubstr("must be before the end of the flight")));
   EXPECT_THAT(faults_with("[{at: 5, until: 5, what: gps, mode: off}]"),
               ElementsAre(HasSubstr("greater than 'at' (5 s)")));
   EXPECT_THAT(faults_with("[{at: 5, what: gps, mode: black}]"),

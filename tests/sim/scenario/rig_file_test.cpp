@@ -103,7 +103,7 @@ TEST(RigFile, RefusesKeysThatDoNotGoTogether) {
   Folder::write("lens.txt", vision::kSmallCalibration);
   EXPECT_THAT(refusal("model: ocam, calibration: lens.txt"), HasSubstr("width and height must be 752 and 480"));
   EXPECT_THAT(refusal("model: ocam, calibration: lens.txt, width: 752, height: 480, focal_x: 3"),
-              HasSubstr("no other key of the lens may"));
+              HasSubstr("remove the other keys of the lens"));
   Folder::write("lens.txt", "5 1 2");
   EXPECT_THAT(refusal("model: ocam, calibration: lens.txt"), HasSubstr("lens.txt': OCamCalib calibration: direct"));
 }

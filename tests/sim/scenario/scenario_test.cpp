@@ -151,14 +151,13 @@ TEST_F(CrossRules, ChecksMakeSense) {
   EXPECT_THAT(faults({"checks=[{check: no_collision}]", "may_collide=true"}),
               ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
   EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rmss, at_most: 1}]"}),
-              ElementsAre(HasSubstr(
-                  "'checks.0.name': is no figure of the judge; did you mean 'jerk_rms'? allowed: success, ")));
+              ElementsAre(HasSubstr("'checks.0.name': is not a metric; did you mean 'jerk_rms'? allowed: success, ")));
   EXPECT_THAT(faults({"checks=[{check: metric, name: module.a}]"}),
               ElementsAre("--set checks: 'checks.0': needs 'at_least' or 'at_most'"));
   EXPECT_THAT(
       faults({"checks=[{check: reached_goal, within: 4, before: 500}]"}),
-      ElementsAre("--set checks: 'checks.0.within': is less than the goal's radius (5 m), where the flight ends",
-                  "--set checks: 'checks.0.before': is after the flight's end (400 s)"));
+      ElementsAre("--set checks: 'checks.0.within': is less than the goal's radius (5 m), at which the flight ends",
+                  "--set checks: 'checks.0.before': is after the end of the flight (400 s)"));
 }
 
 /// Keys of all lengths below an outline; not those in lists, which an override sets as a whole where no file does.
