@@ -11,15 +11,15 @@
 
 namespace hedgehop::sim {
 
-/// The vehicle in its air, with its avionics: what flies, whoever commands it.
+/// The vehicle with its wind and avionics.
 class Aircraft {
  public:
   /// @param scenario  outlives the aircraft. @param parts  of the scenario.
   Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts parts);
 
-  /// Puts it into its drawn start, in a trimmed hover. Throws InputError where it cannot hover.
+  /// Sets a trimmed hover at the drawn start. Throws InputError if the vehicle cannot hover.
   void reset(const CollisionWorld& world);
-  /// Reads the sensors that are due on this tick. @param flow_velocity  the velocimeter, where it has an image.
+  /// Reads the sensors that are due on this tick. @param flow_velocity  the velocimeter, if it has an image.
   void sense(int64_t tick, const CollisionWorld& world, const dynamics::VelocitySensor& flow_velocity = {}) {
     avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);
   }
@@ -27,11 +27,11 @@ class Aircraft {
   void run_autopilot(const dynamics::control::Setpoint& setpoint, double dt_s) {
     actuators_ = avionics_.control(setpoint, dt_s);
   }
-  /// Moves on by one tick. @param tick  that it leaves.
+  /// Advances by one tick. @param tick  before the step.
   void move(int64_t tick);
 
   Eigen::Isometry3d X_WB() const;
-  /// Without a clearance.
+  /// Returns the motion without a clearance.
   BodyMotion motion() const;
   const dynamics::RigidBodyState& body() const { return vehicle_.body(); }
   const dynamics::Vehicle& vehicle() const { return vehicle_; }
@@ -40,7 +40,7 @@ class Aircraft {
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
-  /// What the sensors measure; good until the next call.
+  /// Returns the true values that the sensors measure; valid until the next call.
   dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick);
 
   const Scenario& scenario_;

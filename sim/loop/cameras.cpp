@@ -113,7 +113,7 @@ std::span<const avoidance::CameraFrame> Cameras::snapshot(int64_t t_ns, const Ei
   return snapshot_;
 }
 
-/// A frame of this instant. @param dead  what a dead sensor delivers instead.
+/// A frame of this instant. @param dead  whether the sensor is dead.
 void Cameras::sense(size_t camera, const Instant& now, bool dead, cv::Mat& out) {
   if (std::optional<CornerDetector>& detector = detectors_[camera]) {
     const avoidance::MountedCamera& mounted = truly_mounted_[camera];
@@ -139,8 +139,8 @@ cv::Mat Cameras::moving(size_t camera, const Instant& now) {
   return image(camera, ImageChannel::labels, now, now) >= first_mover_label_;
 }
 
-/// A bound of how fast anything moves through the image, by the camera's rotation and by what passes at the least
-/// distance; taken at the optical axis, beyond which a pinhole shows rotations faster.
+/// Returns a bound on the image speed from the camera's rotation and from objects that pass at the minimum distance. It
+/// holds at the optical axis; off the axis of a pinhole, rotations are faster.
 double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const BodyMotion& body = now.body;
@@ -150,7 +150,8 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   }
   const Eigen::Vector3d v_WC_W = body.v_WB_W + body.X_WB.linear() * body.w_WB_B.cross(mounted.X_BC.translation());
   const double passing_mps = v_WC_W.norm() + mover_mps;
-  const double passing_radps = passing_mps > 0.0 ? passing_mps / body.clearance_m : 0.0;  // infinite where unknown
+  const double passing_radps =
+      passing_mps > 0.0 ? passing_mps / body.clearance_m : 0.0;  // infinite if the clearance is unknown
   return (body.w_WB_B.norm() + passing_radps) / pixel_angle_rad(mounted.model);
 }
 
@@ -159,14 +160,15 @@ void Cameras::draw(size_t camera, ImageChannel channel, const Instant& now, cons
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;
     const double t_s = std::max(0.0, seconds(now.t_ns) + dt_s);
-    // The next image is exposed as long before its instant.
+    // The exposure of the next image has the same offset to its instant.
     const CameraView::Next seen_next{next.body.X_WB_after(dt_s) * mounted.X_BC,
                                      std::max(0.0, seconds(next.t_ns) + dt_s)};
     renderer_.draw({whole ? mounted.model : cut(mounted.model, rows), X_WB * mounted.X_BC, channel, t_s, seen_next,
                     samples_[camera]},
                    image);
   };
-  const bool blurs = channel == ImageChannel::grey || channel == ImageChannel::color;  // truth is that of the middle
+  const bool blurs = channel == ImageChannel::grey ||
+                     channel == ImageChannel::color;  // ground truth is that of the middle of the exposure
   shutters_[camera].expose(now.body, blurs ? image_speed_pxps(camera, now) : 0.0, mounted.model.height_px,
                            std::ref(draw_rows), out);
 }

@@ -23,7 +23,7 @@
 namespace hedgehop::sim {
 
 /// An ideal corner detector in a camera's place, made from the truth: positions of those known corners of the scene
-/// that lie in the image, whatever stands before them, each with white noise. It is the front end of [Shah2009] ch. 4,
+/// that lie in the image, even if occluded, each with white noise. It is the front end of [Shah2009] ch. 4,
 /// which has no images.
 class CornerDetector {
  public:
@@ -34,7 +34,7 @@ class CornerDetector {
   /// @return N x 1, CV_64FC2: (u, v), px, in the order of the corners; the noise may carry one over the image's edge.
   cv::Mat detect(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC);
 
-  /// Returns what it delivers when nothing is detected: 0 x 1, CV_64FC2.
+  /// Returns an empty detection: 0 x 1, CV_64FC2.
   static cv::Mat nothing() { return cv::Mat(0, 1, CV_64FC2); }
 
  private:
@@ -43,12 +43,13 @@ class CornerDetector {
   RandomStream noise_;
 };
 
-/// The rig in flight: which camera exposes when, and what each saw last. All cameras that expose on one tick are drawn
-/// from the same vehicle state, and from where they truly sit, which the calibration may miss.
+/// The cameras of the rig in flight: their exposure times and last frames. All cameras that expose on one tick are
+/// rendered from the same vehicle state and from their true poses, which may differ from the calibration.
 class Cameras {
  public:
   /// @param renderer  of the scene; outlives the cameras. @param seed  of the flight; each camera has its own stream.
-  /// Throws InputError for a camera that the context cannot draw, or a corner detector where no corners are known.
+  /// Throws InputError for a camera that the context cannot draw, or a corner detector in a scene without known
+  /// corners.
   /// @param failures  of the scenario; those of cameras are taken.
   Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer, uint64_t seed,
           std::span<const FailureConfig> failures = {});
@@ -71,16 +72,16 @@ class Cameras {
     BodyMotion body;
   };
   /// One camera's image of an instant in a channel of the caller's choice, with the shutter's and the sensor's
-  /// imperfections. @param next  what ImageChannel::flow leads to.
+  /// imperfections. @param next  second instant of the optic flow, for ImageChannel::flow.
   cv::Mat image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next);
 
-  /// CV_8UC1: 255 where a mover is seen, else 0.
+  /// CV_8UC1: 255 for pixels of moving objects, else 0.
   cv::Mat moving(size_t camera, const Instant& now);
 
-  /// As the calibration has it, for those on board.
+  /// Returns the calibrated camera, for onboard use.
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
   std::span<const avoidance::MountedCamera> mounted() const { return mounted_; }
-  /// As it truly is, for those who judge.
+  /// Returns the camera with its true pose, for the verdict.
   const avoidance::MountedCamera& truly_mounted(size_t camera) const { return truly_mounted_[camera]; }
   int64_t period_ticks(size_t camera) const { return periods_[camera]; }
 
@@ -92,7 +93,7 @@ class Cameras {
   double image_speed_pxps(size_t camera, const Instant& now) const;
 
   Renderer& renderer_;
-  std::vector<ImageChannel> channels_;  ///< to draw; grey where a corner detector is mounted
+  std::vector<ImageChannel> channels_;  ///< to draw; grey for a corner detector
   std::vector<std::optional<CornerDetector>> detectors_;
   std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks

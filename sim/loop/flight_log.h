@@ -27,7 +27,7 @@ class TrajectoryHash {
   Fnv1a hash_;
 };
 
-/// Gathers a flight's tables and figures while it is flown.
+/// Collects a flight's tables and figures during the flight.
 class FlightLog {
  public:
   FlightLog(const scenes::Scene& scene, const dynamics::Vehicle& vehicle) : scene_(scene) {
@@ -36,20 +36,20 @@ class FlightLog {
   }
 
   void set_signals(const std::vector<avoidance::Signal>& signals);
-  /// Every physics tick: keeps the closest approaches.
+  /// Call on every physics tick; keeps the closest approaches.
   void add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity);
-  /// Every control tick.
+  /// Call on every control tick.
   void add(double t_s, const Aircraft& aircraft, const dynamics::control::Setpoint& setpoint,
            const Proximity& proximity);
-  /// Every decision.
+  /// Call on every decision.
   void add(double t_s, const avoidance::Decision& decision);
 
-  /// Of the last decision; empty before the first.
+  /// Returns the status of the last decision; empty before the first.
   std::string_view status() const {
     return flight_.decisions.empty() ? std::string_view() : std::string_view(flight_.decisions.back().status);
   }
 
-  /// The flight so far, with its figures; outcome, timing, metrics and checks are the caller's to fill.
+  /// Returns the flight so far with its figures; the caller adds outcome, timing, metrics and checks.
   Flight flight(double flight_time_s) const;
 
  private:
@@ -58,7 +58,7 @@ class FlightLog {
   TrajectoryHash hash_;
 };
 
-/// Roll, pitch, yaw (3-2-1) of a body attitude, rad.
+/// Returns roll, pitch, yaw (3-2-1) of a body attitude, rad.
 Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q_WB);
 
 }  // namespace hedgehop::sim

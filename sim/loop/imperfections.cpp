@@ -18,7 +18,7 @@ double draw(uint64_t seed, int64_t frame, std::string_view what) {
   return unit_interval(stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(frame), what));
 }
 
-/// Rounded twice on every processor, where OpenCV's convertTo() rounds once on those with FMA.
+/// Rounds twice on every processor; OpenCV's convertTo() rounds once on processors with FMA.
 void multiply_and_add(const cv::Mat& in, double factor, double term, cv::Mat& out) {
   in.convertTo(out, CV_32F, factor);
   cv::add(out, cv::Scalar::all(term), out);
@@ -48,7 +48,7 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
   if (config_.auto_exposure_s > 0.0) expose_automatically(levels_);
   if (gain_ != 1.0) levels_ *= gain_;
   if (noisy) {
-    // Photons come one by one: the variance of their count is its mean.
+    // Photon counts have a Poisson distribution: the variance is the mean.
     cv::min(levels_, kWhite, levels_);
     const double per_level = config_.full_well > 0.0 ? kWhite / config_.full_well : 0.0;
     multiply_and_add(levels_, per_level, config_.read_noise * config_.read_noise, sigma_);
@@ -78,7 +78,7 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
   }
 }
 
-/// Share of the light that each pixel turns into its level: what the lens lets through, times the pixel's gain.
+/// Returns the response of each pixel to light: the transmittance of the lens times the pixel's gain.
 const cv::Mat& Imperfections::response(const cv::Mat& levels) {
   const cv::Size size = levels.size();
   if (response_.size() == size && response_.type() == levels.type()) return response_;
@@ -101,14 +101,14 @@ const cv::Mat& Imperfections::response(const cv::Mat& levels) {
   return response_;
 }
 
-/// A first-order lag of the gain's logarithm towards what would make the mean mid-grey.
+/// Applies a first-order lag of the logarithm of the gain toward the gain for a mid-grey mean.
 void Imperfections::expose_automatically(const cv::Mat& levels) {
   const cv::Scalar sums = cv::mean(levels);
   double mean = 0.0;
   for (int channel = 0; channel < levels.channels(); ++channel) mean += sums[channel] / levels.channels();
-  constexpr double kDarkest = 1.0;  // level; the gain rises no further for a darker image
-  const double wanted = 0.5 * kWhite / std::max(kDarkest, mean);
-  gain_ *= std::pow(wanted / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
+  constexpr double kMinMean = 1.0;  // level; a darker image does not increase the gain further
+  const double target = 0.5 * kWhite / std::max(kMinMean, mean);
+  gain_ *= std::pow(target / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
 }
 
 void blank(cv::Mat& image) {
@@ -121,7 +121,7 @@ namespace {
 constexpr int kBits = 16;
 constexpr uint32_t kSign = 1u << (kBits - 1);
 
-/// The bits of the positive half of the numbers, from the least to the greatest.
+/// The bits of the positive half of the numbers, in increasing order.
 using Half = std::array<uint32_t, kSign>;
 
 Half positive_half() {

@@ -7,7 +7,7 @@
 
 namespace hedgehop::sim {
 
-/// Degrades one camera's images as its config says. The result depends on the image's number and the camera's seed
+/// Degrades one camera's images as configured. The result depends on the image's number and the camera's seed
 /// alone (automatic exposure aside, which follows the images before it).
 class Imperfections {
  public:
@@ -15,13 +15,12 @@ class Imperfections {
   /// for disparity noise only.
   Imperfections(const ImperfectionsConfig& config, double period_s, uint64_t seed, double focal_px = 0.0);
 
-  /// What is delivered instead of a frame.
+  /// Fault of a frame.
   enum class FrameFault { none, dropped, frozen, black };
   FrameFault frame_fault(int64_t frame) const;
 
-  /// Vignetting and pixel gains, exposure, photon and read noise, in this order, as light, lens and sensor have it;
-  /// grey levels are taken as proportional to light. Of depth: noise of its disparity; a disparity that falls to 0 is
-  /// infinitely far.
+  /// Applies vignetting and pixel gains, exposure, photon noise and read noise, in this physical order; grey levels are
+  /// proportional to light. To depth it applies disparity noise; a disparity of 0 or less becomes infinite depth.
   /// @param image  CV_8U, or CV_32FC1 of depth, z in C, m, NaN unknown; others are left as they are.
   void apply(int64_t frame, cv::Mat& image);
 
@@ -39,13 +38,13 @@ class Imperfections {
   cv::Mat levels_, noise_, sigma_;  ///< CV_32F
 };
 
-/// Makes an image what a dead sensor gives: 0 in 8 bits, NaN (unknown) in floats.
+/// Sets an image to the output of a dead sensor: 0 in 8 bits, NaN (unknown) in floats.
 void blank(cv::Mat& image);
 
 /// Fills an image with independent standard normal numbers; equal seeds give equal images. Each comes from 16 bits of
 /// SplitMix64's output at a place of its own: one of 65,536 equally likely numbers, the quantiles of the middles of as
-/// many equal shares [Wichura1988] p. 483, scaled to a variance of 1. None lies beyond 4.4, where the normal
-/// distribution leaves one in 90,000.
+/// many equal shares [Wichura1988] p. 483, scaled to a variance of 1. All are within 4.4; the normal
+/// distribution has one in 90,000 beyond.
 /// @param image  CV_32F, of any size and number of channels.
 void fill_normal(uint64_t seed, cv::Mat& image);
 

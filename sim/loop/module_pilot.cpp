@@ -44,7 +44,7 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
     module_cameras_.push_back(cameras_.index(need.role));
     slowest = std::max(slowest, cameras_.period_ticks(module_cameras_.back()));
   }
-  // A module without cameras decides as often as the rig's fastest camera, so that a control compares like with like.
+  // A module without cameras decides as often as the rig's fastest camera, so that a control flight is comparable.
   decision_period_ = ticks_.period(static_cast<double>(scenario.control_rate_hz));
   for (size_t i = 0; i < cameras_.count(); ++i) {
     decision_period_ = i == 0 ? cameras_.period_ticks(i) : std::min(decision_period_, cameras_.period_ticks(i));
@@ -164,7 +164,7 @@ namespace {
 
 using namespace dynamics::sensors;
 
-/// What of the truth a channel holds; empty for images.
+/// Returns the ground truth in a channel; empty for images.
 std::string_view truth_in(avoidance::CameraNeed::Channel channel) {
   using Channel = avoidance::CameraNeed::Channel;
   if (channel == Channel::corners) return "projected corners";
@@ -189,7 +189,7 @@ bool has_exact_position(const GpsConfig& c) {
 }
 bool has_exact_velocity(const GpsConfig& c) { return c.enabled && c.velocity_noise_mps == 0.0; }
 
-/// Of an instrument that measures two things: "exact", or which of them is; empty for neither.
+/// Returns "exact" for an instrument with two exact quantities, or the exact one; empty for neither.
 std::string of_two(bool first_is_exact, std::string_view first, bool second_is_exact, std::string_view second) {
   if (first_is_exact && second_is_exact) return "exact";
   if (!first_is_exact && !second_is_exact) return "";

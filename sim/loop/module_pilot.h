@@ -40,7 +40,8 @@ class ModulePilot {
   /// Returns the input of a decision: the frames of this tick, the aircraft's own estimate, the current waypoint. The
   /// frames are valid until the next expose().
   avoidance::Observation observe(int64_t tick, const avoidance::NavigationState& navigation);
-  /// Returns the module's decision; the command takes effect after the latency. Throws what the module throws.
+  /// Returns the module's decision; the command takes effect after the latency. Exceptions of the module pass
+  /// through.
   avoidance::Decision decide(int64_t tick, const avoidance::Observation& observation);
   /// Queues a command that replaces the module's decision. A speed above the limit is scaled down to the limit. Throws
   /// std::invalid_argument if it is not finite. @return the command as it will take effect.
@@ -82,16 +83,16 @@ class ModulePilot {
   dynamics::control::Setpoint setpoint_;
 };
 
-/// A module's command as the autopilot takes it.
+/// Converts a module's command to a setpoint of the autopilot.
 dynamics::control::Setpoint to_setpoint(const avoidance::Command& command);
-/// The navigation filter's estimate as a module sees it.
+/// Converts the navigation filter's estimate to a module's input.
 avoidance::NavigationState to_navigation_state(const dynamics::Avionics& avionics);
 
-/// Lists what is true of all that a module gets: "camera 'left': depth", "camera 'front': projected corners",
-/// "sensor 'gps': exact", "sensor 'imu': exact gyros". An instrument is exact when none of its readings errs: all
-/// noise, offsets, wander and misalignment are 0; that it is late, slow or sometimes silent makes it no less true.
-/// Images without noise and lenses known exactly are no truth about the world.
-/// @param needs  of the module. @param avionics  whose sensors feed its navigation.
+/// Lists the ground truth in a module's input: "camera 'left': depth", "camera 'front': projected corners",
+/// "sensor 'gps': exact", "sensor 'imu': exact gyros". An instrument is exact if all its noise, offsets, wander and
+/// misalignment are 0; latency, low rates and outages do not matter. Noise-free images and exact calibrations do not
+/// count as ground truth.
+/// @param needs  of the module. @param avionics  with the sensors of its navigation.
 std::vector<std::string> truth_used(const avoidance::Needs& needs, const dynamics::AvionicsConfig& avionics);
 
 }  // namespace hedgehop::sim

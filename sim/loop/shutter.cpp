@@ -29,9 +29,10 @@ void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, 
   }
   int moments = 1;
   if (config_.shutter_s > 0.0) {
-    const double most = config_.shutter_samples;
+    const double max_moments = config_.shutter_samples;
     moments =
-        static_cast<int>(std::clamp(config_.shutter_s * image_speed_pxps / kMomentSpacingPx, 0.0, most - 1.0)) + 1;
+        static_cast<int>(std::clamp(config_.shutter_s * image_speed_pxps / kMomentSpacingPx, 0.0, max_moments - 1.0)) +
+        1;
   }
   const int strips = config_.readout_s > 0.0 ? std::min(config_.readout_strips, rows) : 1;
   for (int i = 0; i < strips; ++i) {

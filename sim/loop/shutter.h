@@ -9,19 +9,19 @@
 
 namespace hedgehop::sim {
 
-/// Where B is at an instant, how it moves, and how near anything is.
+/// Pose and motion of B at an instant, and the clearance.
 struct BodyMotion {
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
-  double clearance_m = 0.0;                          ///< nothing is nearer to the hull; 0: unknown
+  double clearance_m = 0.0;                          ///< distance of the nearest object from the hull; 0: unknown
 
-  /// Pose a moment later (or earlier), velocities held. @param dt_s  small against what changes them.
+  /// Returns the pose a moment later (or earlier) at constant velocities. @param dt_s  short enough for that.
   Eigen::Isometry3d X_WB_after(double dt_s) const;
 };
 
-/// Draws some rows of a camera's image, seen `dt_s` after the image's instant from a body at X_WB. The image is
-/// written in place when it fits.
+/// Renders some rows of a camera's image, `dt_s` after the image's instant, from a body at X_WB. The image is written
+/// in place if it fits.
 using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& out)>;
 
 /// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
@@ -32,8 +32,8 @@ class Shutter {
  public:
   explicit Shutter(const ImperfectionsConfig& config) : config_(config) {}
 
-  /// @param image_speed_pxps  no point of the image moves faster, >= 0. @param rows  of the image. @param out  the
-  /// image, of the type that `draw` gives: of 8 bits where the image moves.
+  /// @param image_speed_pxps  maximum speed of points in the image, >= 0. @param rows  of the image. @param out  the
+  /// image, of the type that `draw` gives: of 8 bits if the image moves.
   void expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out);
 
  private:
@@ -43,7 +43,7 @@ class Shutter {
   cv::Mat strip_, moment_, sum_;
 };
 
-/// The camera that shows some rows of another's image.
+/// Returns the camera that shows some rows of another camera's image.
 vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range& rows);
 
 }  // namespace hedgehop::sim

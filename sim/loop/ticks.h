@@ -4,7 +4,7 @@
 
 namespace hedgehop::sim {
 
-/// The flight's clock: integer ticks of the physics rate. Everything that happens, happens on a tick.
+/// The flight's clock: integer ticks of the physics rate. Every event is on a tick.
 class Ticks {
  public:
   /// @param physics_rate_hz  a divisor of 1e9, so that a tick is a whole number of nanoseconds.
@@ -14,9 +14,9 @@ class Ticks {
   double t_s(int64_t tick) const { return static_cast<double>(tick) / static_cast<double>(rate_hz_); }
   double dt_s() const { return 1.0 / static_cast<double>(rate_hz_); }
 
-  /// Ticks between two events of a rate that divides the physics rate.
+  /// Returns the ticks between two events of a rate that divides the physics rate.
   int64_t period(double rate_hz) const { return static_cast<int64_t>(static_cast<double>(rate_hz_) / rate_hz + 0.5); }
-  /// Ticks that fit a duration, rounded to the nearest.
+  /// Returns a duration in ticks, rounded to the nearest.
   int64_t ticks(double duration_s) const {
     return static_cast<int64_t>(duration_s * static_cast<double>(rate_hz_) + 0.5);
   }

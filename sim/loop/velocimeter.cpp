@@ -7,7 +7,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// 8 x 8 patches, as [Garratt2009] sec. 4 has them for the ground camera; 64 px in its image of 400 x 400.
+/// 8 x 8 patches, as in [Garratt2009] sec. 4 for the ground camera; 64 px in its image of 400 x 400.
 vision::flow::ImageInterpolationConfig ground_grid(const vision::camera::PinholeCamera& camera) {
   vision::flow::ImageInterpolationConfig grid;
   const int side_px = std::min(camera.width_px, camera.height_px);
@@ -33,7 +33,7 @@ std::optional<dynamics::VelocityReading> Velocimeter::measure(const avoidance::C
   if (!last) return {};
 
   const double dt_s = seconds(frame.t_ns - last->t_ns);
-  // By the gyros alone: a filter's correction, taken for a rotation, would feed the next velocity and so itself.
+  // Gyros only: a filter correction would look like a rotation and feed back into the next velocity.
   const Eigen::AngleAxisd rotation(last->q_WB_gyro.conjugate() * navigation.q_WB_gyro);
   const vision::flow::FlowMotion motion{last->q_WB_est, rotation.axis() * (rotation.angle() / dt_s),
                                         last->height_above_ground_m, dt_s};

@@ -14,18 +14,18 @@ namespace hedgehop::sim {
 /// sec. 2 (hover damping by optic flow).
 class Velocimeter {
  public:
-  /// Throws std::invalid_argument when the camera is not an undistorted pinhole.
+  /// Throws std::invalid_argument if the camera is not an undistorted pinhole.
   Velocimeter(size_t camera, const Cameras& cameras);
 
   size_t camera() const { return camera_; }
   /// Measures the velocity by the flow since the last frame. @param frame  of the camera, later than the last.
-  /// @param navigation  the estimate of the frame's time. @return none for the first frame, and where the ground shows
+  /// @param navigation  the estimate of the frame's time. @return none for the first frame, and if the ground has
   /// too little texture.
   std::optional<dynamics::VelocityReading> measure(const avoidance::CameraFrame& frame,
                                                    const dynamics::control::NavigationEstimate& navigation);
 
  private:
-  /// The estimate when a frame was exposed.
+  /// The estimate at the exposure of a frame.
   struct Exposure {
     int64_t t_ns = 0;
     Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();

@@ -18,13 +18,13 @@ namespace {
 constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr int kTimeOver = SIGALRM;
 
-// Signal handlers reach nothing but globals. A crash and the end of the time are told to the thread they are of.
+// Signal handlers can access globals only. A crash and a timeout are delivered to the thread of the call.
 thread_local sigjmp_buf return_point;
 thread_local volatile sig_atomic_t is_inside = 0;
 
 void leave(int signal) {
-  if (is_inside == 0 && signal == kTimeOver) return;  // the call ended as its time did
-  if (is_inside == 0) {                               // a crash of our own: end by it
+  if (is_inside == 0 && signal == kTimeOver) return;  // the call ended at the timeout
+  if (is_inside == 0) {                               // a crash outside a guarded call ends the process
     ::signal(signal, SIG_DFL);
     ::raise(signal);
     return;
@@ -33,7 +33,7 @@ void leave(int signal) {
   siglongjmp(return_point, signal);
 }
 
-/// The stack may be what has run out.
+/// The cause may be a stack overflow.
 void use_other_stack() {
   thread_local std::vector<char> stack(64 * 1024);
   stack_t other{};
@@ -48,7 +48,8 @@ timer_t make_timer() {
   event.sigev_signo = kTimeOver;
   event._sigev_un._tid = static_cast<pid_t>(::syscall(SYS_gettid));
   timer_t timer{};
-  if (::timer_create(CLOCK_MONOTONIC, &event, &timer) != 0) throw std::runtime_error("no timer to watch a plugin with");
+  if (::timer_create(CLOCK_MONOTONIC, &event, &timer) != 0)
+    throw std::runtime_error("cannot create the timer of a plugin call");
   return timer;
 }
 
@@ -81,7 +82,7 @@ void catch_signals() {
 }
 
 std::string words(int signal, double limit_s) {
-  if (signal == kTimeOver) return fmt::format("gave no answer within {:g} s", limit_s);
+  if (signal == kTimeOver) return fmt::format("did not return within {:g} s", limit_s);
   return fmt::format("crashed ({})", ::strsignal(signal));
 }
 

@@ -10,10 +10,10 @@ struct CallBroken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Calls code that is not ours: a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) or no answer in time becomes
-/// CallBroken. What the call held is then lost and its memory in doubt: nothing of it may be called again, and the
-/// process should write what it has and end. One guarded call at a time in a thread.
-/// @param limit_s  wall time, > 0; it decides nothing but that the call is given up.
+/// Calls foreign code: a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) or a timeout becomes CallBroken. The state of
+/// that code is then undefined: it must not be called again, and the process should write its results and end. One
+/// guarded call at a time per thread.
+/// @param limit_s  wall time, > 0; it affects only the abort of the call.
 void call_guarded(double limit_s, const std::function<void()>& call);
 
 }  // namespace hedgehop::sim

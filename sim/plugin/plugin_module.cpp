@@ -15,7 +15,7 @@ namespace {
 
 using avoidance::ParameterField;
 
-/// Reads a plugin's parameters as strictly as any of this tree.
+/// Reads a plugin's parameters as strictly as those of this tree's modules.
 class ParameterReader : public avoidance::ParameterVisitor {
  public:
   ParameterReader(const Node& map, ErrorList& errors) : reader_(map, "avoidance.parameters", "", errors) {}
@@ -57,13 +57,13 @@ class ParameterReader : public avoidance::ParameterVisitor {
   StructReader reader_;
 };
 
-/// A module whose code is not ours.
+/// A foreign module with guarded calls.
 class GuardedModule : public avoidance::Module {
  public:
   GuardedModule(std::unique_ptr<avoidance::Module> module, const PluginConfig& config)
       : module_(module.release()), name_(config.module), limit_s_(config.limit_s) {}
   ~GuardedModule() override {
-    if (!broken_.empty()) return;  // its memory is in doubt: leave it
+    if (!broken_.empty()) return;  // its state is undefined: do not delete it
     try {
       guarded([this] { delete module_; });
     } catch (const std::exception&) {  // the flight is over
@@ -115,17 +115,17 @@ class GuardedModule : public avoidance::Module {
     return answer;
   }
 
-  /// What is reported beside the flight: nothing, once the module is broken.
+  /// Returns an optional report of the module; empty after a crash or timeout.
   template <class Answer, class Call>
   Answer reported(const Call& call) const {
     if (!broken_.empty()) return {};
     return answer_of<Answer>(call);
   }
 
-  avoidance::Module* module_;  ///< owned while whole
+  avoidance::Module* module_;  ///< owned unless broken_
   std::string name_;
   double limit_s_;
-  mutable std::string broken_;  ///< how; empty while whole
+  mutable std::string broken_;  ///< error of the last call; empty without error
 };
 
 [[noreturn]] void refuse(const PluginConfig& config, const std::string& why) {
@@ -141,12 +141,13 @@ Function* find_function(void* library, const char* name) {
 avoidance::PluginRows load_rows(const PluginConfig& config) {
   std::error_code error;
   if (!std::filesystem::exists(config.plugin, error)) refuse(config, "no such file");
-  if (!std::filesystem::is_regular_file(config.plugin, error)) refuse(config, "is no regular file");
-  void* const library = ::dlopen(config.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays: its code may be in use
+  if (!std::filesystem::is_regular_file(config.plugin, error)) refuse(config, "is not a regular file");
+  void* const library =
+      ::dlopen(config.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);  // never unloaded: its code may be in use
   if (!library) refuse(config, fmt::format("cannot be loaded: {}", ::dlerror()));
   auto* const interface = find_function<const char*()>(library, "hedgehop_plugin_interface");
   auto* const add_rows = find_function<void(avoidance::PluginRows&)>(library, "hedgehop_plugin_rows");
-  if (!interface || !add_rows) refuse(config, "is no module's library: it lacks HEDGEHOP_PLUGIN(...)");
+  if (!interface || !add_rows) refuse(config, "is not a module library: it lacks HEDGEHOP_PLUGIN(...)");
   if (const std::string_view theirs = interface(); theirs != HEDGEHOP_PLUGIN_INTERFACE) {
     refuse(config, fmt::format("was built against another interface ({}); this program has: {}. Build it again", theirs,
                                HEDGEHOP_PLUGIN_INTERFACE));

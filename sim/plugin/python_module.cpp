@@ -27,7 +27,7 @@ PythonMaker& known_maker() {
   throw InputError(FieldError{"avoidance.python", fmt::format("{}: {}", config.python.string(), why)});
 }
 
-/// As YAML's core schema reads them.
+/// Converts a scalar as in YAML's core schema.
 nlohmann::json scalar(const Node& node) {
   if (node.quoted) return node.text;
   if (node.text == "true" || node.text == "false") return node.text == "true";
@@ -56,7 +56,7 @@ nlohmann::json to_json(const Node& node) {
   throw std::logic_error("unknown kind of node");
 }
 
-/// The interpreter's library lies in the Python package: in a wheel, in the build folder, or where both are installed.
+/// Returns the interpreter's library in the Python package: of a wheel, of the build folder, or of an installation.
 std::optional<fs::path> interpreter_library() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -77,15 +77,15 @@ PythonMaker load_maker(const PythonConfig& config) {
   const std::optional<fs::path> library = interpreter_library();
   if (!library) {
     refuse(config,
-           "Python is not installed beside this program: it is the package python3-hedgehop; a build of one's "
-           "own takes python3-dev, pybind11-dev and python3-numpy");
+           "this program has no Python; install the package python3-hedgehop, or build with python3-dev, "
+           "pybind11-dev and python3-numpy");
   }
   // Python's own extensions look its symbols up globally.
   void* const handle = ::dlopen(library->c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!handle) refuse(config, fmt::format("{} cannot be loaded: {}", library->string(), ::dlerror()));
   using Make = avoidance::Module*(const PythonRequest&);
   auto* const make = reinterpret_cast<Make*>(::dlsym(handle, "hedgehop_make_python_module"));
-  if (!make) refuse(config, library->string() + " is not of this build");
+  if (!make) refuse(config, library->string() + " is not from this build");
   return [make](const PythonRequest& request) { return std::unique_ptr<avoidance::Module>(make(request)); };
 }
 
@@ -102,7 +102,7 @@ std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config
       config.parameters.kind == Node::Kind::map ? to_json(config.parameters).dump() : std::string("{}");
   try {
     auto module = known_maker()({fs::absolute(config.python).string(), config.class_name, parameters});
-    // What it says of itself is looked at before the flight.
+    // Validate its needs and signals before the flight.
     static_cast<void>(module->needs());
     static_cast<void>(module->signals());
     return module;

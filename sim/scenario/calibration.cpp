@@ -35,7 +35,7 @@ std::string kalibr_pose(std::string_view name, const Eigen::Isometry3d& X) {
   return text;
 }
 
-/// OpenCV's reader takes a key as it stands, without quotes.
+/// OpenCV's reader takes keys literally, without quotes.
 void require_key(const std::string& role) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   if (!role.empty() && std::isalpha(static_cast<unsigned char>(role[0])) && std::ranges::all_of(role, plain)) return;

@@ -12,9 +12,9 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr int kDeepest = 100;  // nested parts, such as parentheses
+constexpr int kMaxDepth = 100;  // nested parts, such as parentheses
 
-/// What parentheses may hold: which of both shows only at their end.
+/// The content of parentheses; the parser knows which of both only at their end.
 using Value = std::variant<Expression, Formula>;
 
 /// Recursive descent, a function for each level of binding.
@@ -208,7 +208,7 @@ class Parser {
   /// Counts the levels, for a text may not exhaust the stack.
   struct Depth {
     explicit Depth(Parser& parser) : of(parser) {
-      if (++of.depth_ > kDeepest) of.tokens_.refuse("nested too deep");
+      if (++of.depth_ > kMaxDepth) of.tokens_.refuse("nested too deep");
     }
     ~Depth() { --of.depth_; }
     Depth(const Depth&) = delete;
@@ -224,9 +224,9 @@ class Parser {
 
 const std::vector<FormulaSignal>& formula_signals() {
   static const std::vector<FormulaSignal> signals{
-      {"clearance", "m", "of the hull to anything; 50 where nothing is nearer"},
-      {"obstacle_clearance", "m", "to obstacles; 50 where none is nearer"},
-      {"ground_clearance", "m", "to the ground; 50 where it is not nearer"},
+      {"clearance", "m", "of the hull to obstacles and ground; at most 50"},
+      {"obstacle_clearance", "m", "to obstacles; at most 50"},
+      {"ground_clearance", "m", "to the ground; at most 50"},
       {"north", "m", "position"},
       {"east", "m", "position"},
       {"altitude", "m", "above the scene's origin"},
@@ -238,8 +238,8 @@ const std::vector<FormulaSignal>& formula_signals() {
       {"tilt", "deg", "of the body's down axis to the vertical"},
       {"goal_distance", "m", "horizontal; 0 without a goal"},
       {"wind", "m/s", "speed of the air"},
-      {"tracking_error", "m/s", "horizontal velocity to the commanded one; 0 where none is commanded"},
-      {"estimation_error", "m", "of the estimated position to the true one"},
+      {"tracking_error", "m/s", "difference of horizontal velocity and command; 0 without a velocity command"},
+      {"estimation_error", "m", "distance of the estimated and the true position"},
   };
   return signals;
 }

@@ -13,7 +13,7 @@ namespace hedgehop::sim {
 struct FormulaSignal {
   std::string_view name, unit, meaning;
 };
-/// Those of numbers. `status`, the word of the module's last decision, is the only other one.
+/// Returns the numeric signals. The only other signal is `status`, the status of the module's last decision.
 const std::vector<FormulaSignal>& formula_signals();
 
 /// Arithmetic on signals.
@@ -25,13 +25,13 @@ struct Expression {
   std::vector<Expression> of;
 };
 
-/// Times after now; no end where it lasts to the flight's.
+/// Times after now; without `to_s`, until the end of the flight.
 struct TimeInterval {
   double from_s = 0.0;
   std::optional<double> to_s;
 };
 
-/// A formula that is at least 0 where it holds.
+/// A formula; its robustness is at least 0 if it holds.
 struct Formula {
   enum class Kind {
     at_least_zero,  ///< `margin` >= 0
@@ -62,7 +62,7 @@ struct Formula {
 /// Source: [DonzeMaler2010] sec. on signal temporal logic.
 Formula parse_formula(std::string_view text);
 
-/// How long after its start a formula looks at least, s: sums along nested intervals; 'end' counts as its beginning.
+/// Returns the minimum horizon of a formula, s: the sum along nested intervals; 'end' counts as its beginning.
 double horizon_s(const Formula& formula);
 
 }  // namespace hedgehop::sim

@@ -22,7 +22,7 @@ class Tokens {
 
   const Token& next() const { return next_; }
   Token take();
-  /// Takes the next token where it is this word or sign. @return whether it was.
+  /// Takes the next token if it is this word or sign. @return whether it was taken.
   bool take(std::string_view text);
   /// As above; refuses any other.
   void expect(std::string_view text);

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Relative to the folder unless nothing but the root, or little more, is above both.
+/// Returns the path relative to the folder, or absolute if their common parent is too far up.
 std::string name_of(const fs::path& file, const fs::path& folder) {
-  constexpr auto kFarthest = 3;  // folders up: a world of configs/leaderboard/worlds names a rig of configs/rigs
+  constexpr auto kMaxUps = 3;  // folders up: a world of configs/leaderboard/worlds names a rig of configs/rigs
   const fs::path whole = fs::absolute(file).lexically_normal(), from = fs::absolute(folder / ".").lexically_normal();
   const fs::path relative = whole.lexically_relative(from);
   const auto ups = std::ranges::count(relative, fs::path(".."));
   const auto depth = std::ranges::count_if(from, [](const fs::path& part) { return !part.empty() && part != "/"; });
-  return relative.empty() || ups > kFarthest || ups >= depth ? whole.string() : relative.string();
+  return relative.empty() || ups > kMaxUps || ups >= depth ? whole.string() : relative.string();
 }
 
 std::set<fs::path> named_files(const Scenario& scenario) {

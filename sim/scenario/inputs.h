@@ -19,7 +19,7 @@ using Inputs = std::map<std::string, std::string>;
 Inputs inputs_of(const Scenario& scenario, const std::set<std::filesystem::path>& read,
                  const std::filesystem::path& folder);
 
-/// 64 hexadecimal digits, or "missing" where there is no such file.
+/// 64 hexadecimal digits, or "missing" if there is no such file.
 std::string sha256(const std::filesystem::path& file);
 
 }  // namespace hedgehop::sim

@@ -20,7 +20,7 @@ constexpr std::string_view kHeader = "t_s,north_m,east_m,altitude_m";
   throw std::invalid_argument(fmt::format("{}:{}: {}", file.string(), line, why));
 }
 
-/// What follows "# key: ", or nothing.
+/// Returns the text after "# key: ", if any.
 std::string_view after_key(std::string_view line, std::string_view key) {
   const std::string begin = fmt::format("# {}: ", key);
   return line.starts_with(begin) ? line.substr(begin.size()) : std::string_view();

@@ -71,7 +71,7 @@ TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsWhatWasFlown) {
                                                       {"segfault", "'misbehaving' crashed (Segmentation fault)"},
                                                       {"abort", "'misbehaving' crashed (Aborted)"},
                                                       {"recurse", "'misbehaving' crashed (Segmentation fault)"},
-                                                      {"hang", "'misbehaving' gave no answer within 1 s"},
+                                                      {"hang", "'misbehaving' did not return within 1 s"},
                                                       {"not_finite", "finite"}};
   for (const auto& [how, cause] : ways) {
     const CommandEnd end = run("how: " + how);
