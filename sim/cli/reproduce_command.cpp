@@ -45,15 +45,15 @@ std::vector<Paper> read_papers(const std::vector<std::string>& names) {
   for (const std::string& name : names) files.push_back(paper_file(name));
   if (names.empty()) files = shipped_files("papers");
   std::vector<Paper> papers;
-  std::vector<std::string> faults;
+  std::vector<std::string> errors;
   for (const fs::path& file : files) {
     try {
       papers.push_back(read_paper(file));
     } catch (const InputError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+      errors.insert(errors.end(), error.errors().begin(), error.errors().end());
     }
   }
-  if (!faults.empty()) throw InputError(faults);
+  if (!errors.empty()) throw InputError(errors);
   return papers;
 }
 

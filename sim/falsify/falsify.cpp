@@ -110,7 +110,7 @@ class Search {
     } catch (const InputError& error) {
       for (size_t i = 0; i < seeds(); ++i) {
         Order order{.id = fmt::format("flights/{:06}-{}", number, i), .scenario = search_.sweep.scenario};
-        order.fault = error.faults().front();
+        order.fault = error.errors().front();
         orders.orders.push_back(std::move(order));
         orders.values.push_back(values);
         orders.points.push_back(number);

@@ -140,7 +140,7 @@ TEST(Leaderboard, RejectsUnknownAndRepeatedNames) {
     leaderboard_of(config);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.faults(),
+    EXPECT_THAT(error.errors(),
                 ElementsAre("leaderboard: 'a' stands twice", "leaderboard: no module 'other'",
                             "leaderboard: 'other' is not flown without a reason", "leaderboard: no world 'c'"));
   }
