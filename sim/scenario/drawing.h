@@ -10,8 +10,8 @@ namespace hedgehop::sim {
 
 /// A renderer: the implementation that makes the images.
 enum class RendererKind {
-  osmesa,  ///< OpenGL by Mesa's software rasterizer behind OSMesa
-  egl,     ///< OpenGL by EGL without a surface: a GPU if the machine has one, else Mesa's software rasterizer
+  osmesa,  ///< OpenGL of Mesa's software rasterizer through OSMesa
+  egl,     ///< OpenGL through EGL without a surface: a GPU if available, else Mesa's software rasterizer
   tiles,   ///< Hedgehop's own rasterizer for processors with AVX2
 };
 

@@ -50,7 +50,7 @@ TEST_P(Fuzz, CorpusHasAFileThatIsReadWhole) {
       return false;
     }
   };
-  // They lie beside configs/ in the folder that feed() makes, and nowhere else: a scenario may name ../rigs.
+  // They are next to configs/ only in the folder that feed() makes, because a scenario may name ../rigs.
   feed(GetParam(), corpus(GetParam()).front());
   EXPECT_TRUE(reads(std::filesystem::temp_directory_path() / ("hedgehop_fuzz_" + std::to_string(getpid())) / "in" /
                     ("input." + std::string(GetParam().extension))));

@@ -9,7 +9,7 @@
 
 namespace hedgehop::fuzz {
 
-/// Changes texts as a fuzzer would that knows nothing of coverage: the same for equal seeds.
+/// Changes texts like a fuzzer without coverage; equal seeds give equal changes.
 class Mutation {
  public:
   explicit Mutation(uint64_t seed) : random_(seed) {}

@@ -33,7 +33,7 @@ namespace {
 
 void read_scenario(const std::filesystem::path& file) {
   const sim::Scenario scenario = sim::load_scenario(file);
-  // What was read can be written, and reads back.
+  // A scenario that was read can be written and reads back.
   sim::ErrorList faults("scenario");
   std::set<std::filesystem::path> files;
   sim::parse_tree(sim::to_yaml(scenario), "resolved", faults, files);
@@ -42,7 +42,7 @@ void read_scenario(const std::filesystem::path& file) {
 
 void read_campaign(const std::filesystem::path& file) { sim::read_batch({file}, {}, {}); }
 
-/// What `batch --failed-only` reads of an earlier batch.
+/// The part of an earlier batch that `batch --failed-only` reads.
 void read_earlier_batch(const std::filesystem::path& file) { sim::reread_batch(file); }
 
 void read_mesh(const std::filesystem::path& file) {
@@ -56,7 +56,7 @@ void read_texture(const std::filesystem::path& file) {
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
   const cv::Mat image = scenes::mesh::decode_texture(bytes);
   if (image.empty()) throw std::invalid_argument("no image");
-  if (image.type() != CV_8UC3) throw std::logic_error("not three bytes a pixel");
+  if (image.type() != CV_8UC3) throw std::logic_error("not three bytes per pixel");
 }
 
 void read_calibration(const std::filesystem::path& file) {

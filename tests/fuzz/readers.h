@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-/// What reads files of others, for fuzzing: each throws InputError, or what its header names, or succeeds.
+/// The readers of input files, for fuzzing. Each succeeds, or throws InputError or the exceptions of its header.
 namespace hedgehop::fuzz {
 
 struct Reader {
@@ -14,11 +14,11 @@ struct Reader {
 };
 
 std::span<const Reader> readers();
-/// The reader of a name, or null.
+/// Returns the reader of a name, or null.
 const Reader* find(std::string_view name);
 
-/// Lets it read a file of these bytes, beside links to everything in `configs/` (`../rigs/x.yaml`). What it may throw
-/// is swallowed; anything else passes.
+/// Runs the reader on a file of these bytes, next to links to the contents of `configs/` (`../rigs/x.yaml`). Its
+/// documented exceptions are caught; others pass through.
 void feed(const Reader& reader, std::string_view bytes);
 
 }  // namespace hedgehop::fuzz

@@ -39,7 +39,7 @@ class Folder {
   std::filesystem::path before_, path_;
 };
 
-/// ErrorList that `f` throws as InputError; none when it throws nothing.
+/// Returns the errors that `f` throws as InputError; empty without an exception.
 template <class F>
 std::vector<std::string> faults_of(F&& f) {
   try {

@@ -11,7 +11,7 @@ namespace hedgehop::sim {
 
 using Json = nlohmann::json;
 
-/// A YAML document as JSON, by the YAML library's own tree: shares nothing with the scenario reader.
+/// A YAML document as JSON, by the YAML library's own tree: has no code in common with the scenario reader.
 inline Json json_of(const YAML::Node& node) {
   if (node.IsNull()) return nullptr;
   if (node.IsSequence()) {

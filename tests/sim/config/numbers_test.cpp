@@ -19,14 +19,14 @@ TEST(Numbers, ReadsTheDecimalsOfYaml) {
   EXPECT_EQ(parse_number("6.02E+23", false).member, 6.02e23);
 }
 
-TEST(Numbers, RefusesWhatIsNoDecimal) {
+TEST(Numbers, RefusesTextsThatAreNotDecimals) {
   for (const char* text :
        {"", "+", "-", ".", "abc", "0x10", "1_000", "1,5", "3 m", "infinity", "+-3", "--3", "e5", "1e"}) {
     EXPECT_EQ(parse_number(text, false).kind, Kind::not_a_number) << text;
   }
 }
 
-TEST(Numbers, KnowsWhatIsNotFinite) {
+TEST(Numbers, DetectsNumbersThatAreNotFinite) {
   for (const char* text : {".inf", "-.inf", "+.INF", ".nan", ".NaN", "nan", "inf", "1e999", "-1e999"}) {
     EXPECT_EQ(parse_number(text, false).kind, Kind::not_finite) << text;
   }

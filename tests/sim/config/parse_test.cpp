@@ -33,7 +33,7 @@ TEST(Parse, SyntaxErrorsHaveAPlace) {
   EXPECT_THAT(faults_of_file("name: x\n  mass: 3\n"), ElementsAre(testing::StartsWith("a.yaml:2:7: ")));
 }
 
-TEST(Parse, RefusesWhatYamlLibrariesLetPass) {
+TEST(Parse, RefusesInputThatYamlLibrariesAccept) {
   Folder folder;
   EXPECT_THAT(faults_of_file("rotor:\n  radius: 1\n  radius: 2\n"),
               ElementsAre("a.yaml:3:3: duplicate key 'radius' in 'rotor'; first at line 2"));
@@ -108,7 +108,7 @@ TEST(Use, ModulesFromOutsideReplaceThoseOfTheTree) {
               ElementsAre("module=zig_zag", "speed=3"));
 }
 
-TEST(Use, RefusesCirclesAndWhatIsNoFile) {
+TEST(Use, RefusesCirclesAndMissingFiles) {
   Folder folder;
   Folder::write("b.yaml", "rotor: {use: a.yaml}\n");
   EXPECT_THAT(faults_of_file("use: ./b.yaml\n"),
@@ -153,7 +153,7 @@ TEST_F(Override, AnotherChoiceDropsTheOldKeys) {
   EXPECT_EQ(std::get<sample::Square>(load({"shape.type=square"}).shape).side_m, 3.0);
 }
 
-TEST_F(Override, UsesAFileBesideTheScenario) {
+TEST_F(Override, UsesAFileInTheFolderOfTheScenario) {
   Folder::write("dir/rotor.yaml", "radius: 9\n");
   EXPECT_EQ(load({"rotor.use=rotor.yaml"}).rotor.radius_m, 9.0);
   EXPECT_EQ(load({"rotors.0={use: rotor.yaml, blade_count: 3}"}).rotors[0].radius_m, 9.0);

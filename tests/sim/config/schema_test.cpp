@@ -42,7 +42,7 @@ TEST_F(Schema, AcceptsWhateverTheWriterWrites) {
   }
 }
 
-TEST_F(Schema, RefusesWhatTheReaderRefuses) {
+TEST_F(Schema, RefusesFilesThatTheReaderRefuses) {
   const std::vector<std::string> bad = {"mas: 3",
                                         "mass: 0",
                                         "mass: 100",
@@ -91,7 +91,7 @@ TEST_F(Schema, FaultOfAChoiceNamesItsKey) {
             "$.shape.type: enum [\"round\",\"square\"], got \"rond\"");
 }
 
-TEST_F(Schema, HoldsNothingTwice) {
+TEST_F(Schema, HoldsEachDefinitionOnce) {
   EXPECT_LT(json_schema().size(), 300'000u);
   EXPECT_FALSE(scenario_.at("$defs").empty());
 }
@@ -131,7 +131,7 @@ TEST(Document, ListsEveryChoiceWithItsKeys) {
                                "cameras, checks, scenario"});
 }
 
-/// Every key a user may write says what it means.
+/// Every key of a user has a description.
 TEST(Document, EveryFieldOfAScenarioHasAMeaning) {
   const std::function<void(const std::vector<ConfigOutline>&, const std::string&)> look =
       [&](const std::vector<ConfigOutline>& nodes, const std::string& path) {

@@ -13,7 +13,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// A visitor that lists the bits of every value: an oracle that shares nothing with the writer.
+/// A visitor that lists the bits of every value: an oracle without code of the writer.
 class Bits {
  public:
   template <class T>

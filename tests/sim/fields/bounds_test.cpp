@@ -81,7 +81,7 @@ TEST(RequireBounds, JudgesAnglesInDegrees) {
   EXPECT_EQ(refusal([](Machine& m) { m.tilt_rad = to_radians(-91.0L); }), "tilt: must be >= -90 deg, got -91");
 }
 
-TEST(RequireBounds, RefusesWhatIsNotFiniteWithoutABound) {
+TEST(RequireBounds, RefusesNumbersThatAreNotFiniteWithoutABound) {
   EXPECT_EQ(refusal([](Machine& m) { m.trim = std::nan(""); }), "trim: must be finite, got nan");
   EXPECT_EQ(refusal([](Machine& m) { m.trim = -std::numeric_limits<double>::infinity(); }),
             "trim: must be finite, got -inf");

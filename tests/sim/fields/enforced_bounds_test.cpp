@@ -30,7 +30,7 @@ std::string refusal(const Make& make) {
   return "";
 }
 
-/// Sets each leaf of `config` to each of its edges and holds what `make` does against its bounds.
+/// Sets each leaf of `config` to each of its edges and compares the result of `make` with its bounds.
 /// @param make  takes a config with one leaf changed, and that leaf's key.
 template <class Config, class Make>
 int hold_to_bounds(const Config& config, std::string_view prefix, const Make& make) {

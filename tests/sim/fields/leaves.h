@@ -22,7 +22,7 @@ inline constexpr Edge kEdges[] = {Edge::inside_low, Edge::outside_low, Edge::ins
 
 inline bool is_inside(Edge edge) { return edge == Edge::inside_low || edge == Edge::inside_high; }
 
-/// The value at an edge, in the unit of the member; nothing where the field has no bound there.
+/// The value at an edge, in the unit of the member; no value if the field has no bound there.
 template <class T>
 std::optional<T> value_at(Edge edge, const Field& listed) {
   const Field field = bounded(listed);

@@ -22,7 +22,7 @@ class EitherKind : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Aircraft, EitherKind, testing::Values("Helicopter", "Multicopter"),
                          [](const auto& kind) { return kind.param; });
 
-TEST(Allocations, AreCountedHoweverMemoryIsAskedFor) {
+TEST(Allocations, AreCountedForEveryKindOfRequest) {
   if (!counts_allocations()) GTEST_SKIP() << "the address sanitizer has the allocator";
   const size_t before = allocation_count();
   const auto number = std::make_unique<double>(1.0);
@@ -30,7 +30,7 @@ TEST(Allocations, AreCountedHoweverMemoryIsAskedFor) {
   EXPECT_EQ(allocation_count() - before, 2u) << numbers.sum();
 }
 
-TEST_P(EitherKind, AllocatesNothingInFlight) {
+TEST_P(EitherKind, DoesNotAllocateInFlight) {
   if (!counts_allocations()) GTEST_SKIP() << "the address sanitizer has the allocator";
   OutdoorFlight flight(vehicle());
   flight.fly(0.1);
@@ -45,7 +45,7 @@ TEST_P(EitherKind, RangesTheWallAheadOfIt) {
   OutdoorFlight flight(vehicle());
   flight.fly(8.0);
   const Aircraft& aircraft = flight.aircraft();
-  // The wall stands across north, the nose points to it: the beam's length follows from the attitude.
+  // The wall is perpendicular to north and the nose points to it, so the attitude gives the beam's length.
   const Eigen::Vector3d ahead_W = aircraft.body().q_WB * Eigen::Vector3d::UnitX();
   const double distance_m = (OutdoorFlight::kWallNorthM - aircraft.body().p_WB.x()) / ahead_W.x();
   ASSERT_TRUE(aircraft.avionics().range_m());

@@ -4,8 +4,8 @@
 
 namespace hedgehop {
 
-/// How often this program has asked for heap memory since it began: by `new`, by Eigen, by anybody. Programs that ask
-/// list allocations.cpp among their sources. None where it cannot be counted: under the address sanitizer.
+/// Returns how often this program has requested heap memory since its start, by `new` or
+/// by Eigen. The program must list allocations.cpp among its sources. Returns 0 under the address sanitizer.
 size_t allocation_count();
 
 /// Whether allocation_count() counts.

@@ -56,7 +56,7 @@ TEST(CornerDetector, ScattersByItsNoiseAroundTheProjections) {
   EXPECT_NEAR(std::sqrt(squares.y() / count), kNoisePx, 0.05);
 }
 
-TEST(CornerDetector, ReportsNothingOutsideTheImage) {
+TEST(CornerDetector, ReportsNoCornersOutsideTheImage) {
   CornerDetector detector({{200, 0, 0}, {40, 100, -38}}, 0.5, 1);
   const cv::Mat detected = detector.detect(kCamera, looking_south());
   EXPECT_EQ(detected.rows, 0);
@@ -101,7 +101,7 @@ TEST(ProjectedCorners, OfASceneWithoutKnownCornersAreRefused) {
   }
 }
 
-TEST(TruthUsed, IsEmptyForAFlightByImages) {
+TEST(TruthUsed, IsEmptyForAFlightWithImages) {
   const std::vector<std::string> overrides = {"duration=0.1", "film.enabled=false"};
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/shah2009_cube_lateral.yaml", overrides);
   EXPECT_TRUE(Simulation(scenario).run().result.truth_used.empty());

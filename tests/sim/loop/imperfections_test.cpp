@@ -88,7 +88,7 @@ TEST(Imperfections, ExposureMultipliesLightAndSaturates) {
   EXPECT_EQ(mean_of(bright), 255.0);
 }
 
-TEST(Imperfections, VignettingTakesItsShareInTheCornersAndNothingInTheMiddle) {
+TEST(Imperfections, VignettingTakesItsShareInTheCornersAndZeroInTheMiddle) {
   ImperfectionsConfig config;
   config.vignetting = 0.4;
   Imperfections camera(config, kPeriodS, 1);

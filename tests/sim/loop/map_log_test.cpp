@@ -21,7 +21,7 @@ TEST(MapLog, OfAModuleWithoutAMapIsEmpty) {
 }
 
 // A decision every 0.5 s: straight on, a detour of 2 places from 2 s on, one of 3 from 7 s on, straight again from 8 s.
-TEST(MapLog, KeepsDetoursEveryTwoSecondsAndWhereTheirTurnsChange) {
+TEST(MapLog, KeepsDetoursEveryTwoSecondsAndWhenTheirTurnsChange) {
   MapLog log;
   for (int i = 0; i < 20; ++i) {
     const double t_s = 0.5 * i;

@@ -32,8 +32,8 @@ cv::Mat exposed(const Blur& blur, const Eigen::Vector3d& w_WB_B, int most_moment
   return cameras.expose(0, 1'000'000'000, body)->image.clone();
 }
 
-// By day a mid-grey pixel has 2.3 grey levels of noise. Images of one sample a pixel are aliased, and each moment
-// differently; what remains with four samples is the blur's own error.
+// In daylight a mid-grey pixel has 2.3 grey levels of noise. Images with one sample per pixel are aliased, each moment
+// differently; with four samples, the remaining error is that of the blur.
 TEST(MotionBlur, DiffersFromThatOf64MomentsByLessThanNoiseHides) {
   const std::vector<Blur> flights = {
       {"tree", scenes::make_scene(scenes::worlds::TreeConfig{}, 1), {-12.0, 0.0, -5.0}, {3.0, 0.5, 0.0}, 5.0},

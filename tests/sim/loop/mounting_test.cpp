@@ -32,7 +32,7 @@ Eigen::Vector2d seen(const RigConfig& rig, std::string_view role, const Eigen::V
   return *camera.model().project(true_X_BC(camera, camera.model(), seed).inverse() * p_B);
 }
 
-// Closed forms: a spot ahead stands 0.1 px lower or higher in the right image, and its disparity f b / z is that of a
+// Closed forms: a spot ahead is 0.1 px lower or higher in the right image, and its disparity f b / z is that of a
 // baseline 0.05 % longer or shorter, near as well as far.
 TEST(Mounting, APairMissesItsCalibrationByRowsAndByItsBaseline) {
   const RigConfig rig = stereo_rig({.width_px = 640, .height_px = 480, .focal_x_px = 600.0, .yaw_rad = 0.4});
@@ -62,8 +62,8 @@ TEST(Mounting, APixelsAngleIsOneOverTheFocalLength) {
   EXPECT_NEAR(pixel_angle_rad(fisheye.model()), 1.0 / 144.0, 1e-9);  // r = f theta
 }
 
-// What is drawn comes from the true pose, what modules are told is the calibration.
-TEST(Mounting, ImagesAreDrawnFromWhereTheCameraIsAndModulesAreToldTheCalibration) {
+// Images are rendered from the true pose; modules receive the calibrated pose.
+TEST(Mounting, ImagesAreRenderedFromTheTruePoseAndModulesReceiveTheCalibration) {
   RigConfig rig = stereo_rig({.width_px = 160, .height_px = 120, .fov_rad = 1.1});
   rig.cameras[1].row_error_px = 3.0;
   const scenes::Scene scene = scenes::make_scene(scenes::worlds::TreeConfig{}, 1);

@@ -5,7 +5,7 @@
 namespace hedgehop::sim {
 
 /// An aircraft with its autopilot and all of its sensors that flies to and fro between walls in moderate turbulence,
-/// 500 physics steps a second and an autopilot step every fifth of them.
+/// 500 physics steps per second and an autopilot step every fifth of them.
 class OutdoorFlight {
  public:
   static constexpr double kWallNorthM = 40.0;  ///< of the near side of the wall to the north

@@ -28,7 +28,7 @@ using Method = vision::stereo::StereoMatcherConfig::Method;
 /// A rectified pair and the truth about it.
 struct StereoPair {
   cv::Mat left, right;
-  cv::Mat truth_px;  ///< CV_32F disparity of the left image; 0 where unknown, sky, or hidden from the right camera
+  cv::Mat truth_px;  ///< CV_32F disparity of the left image; 0 if unknown, sky, or hidden from the right camera
   int disparities_px = 64;
 };
 
@@ -73,7 +73,7 @@ StereoPair real_pair(const std::string& name, const std::string& truth, double s
 constexpr double kBaselineM = 0.3;
 const vision::camera::PinholeCamera kCamera{640, 480, 600, 600, 319.5, 239.5};
 
-/// Disparity from depth, where the right camera sees the same surface.
+/// Returns the disparity from depth for pixels whose surface the right camera sees too.
 cv::Mat true_disparity(const cv::Mat& left_m, const cv::Mat& right_m, int disparities_px) {
   cv::Mat truth_px(left_m.size(), CV_32F, cv::Scalar(0));
   for (int v = 0; v < left_m.rows; ++v) {
@@ -93,7 +93,7 @@ cv::Mat true_disparity(const cv::Mat& left_m, const cv::Mat& right_m, int dispar
 
 using Pairs = std::map<std::string, std::vector<StereoPair>>;
 
-/// What makes a rendered pair less than perfect.
+/// The imperfections of a rendered pair.
 struct Rig {
   ImperfectionsConfig sensor;  ///< of both cameras, each from its own stream
   double row_error_px = 0.0;
@@ -185,7 +185,7 @@ std::vector<Shares> scores(const Pairs& worlds, Method method, const std::string
 
 constexpr double kThird = 1.0 / 3.0;
 
-/// The least and the greatest share among real pairs, of pixels unmatched and of pixels wrong.
+/// The minimum and maximum share among real pairs, of pixels unmatched and of pixels wrong.
 struct Range {
   Shares least{1.0, 1.0}, most;  ///< `valid` holds the share unmatched
 };
@@ -213,7 +213,7 @@ void expect_no_harder(const Shares& shares, const Range& real) {
 }
 
 // As the headlines fly: with the noise of a sensor file, and a pair that misses its calibration. Semi-global matching
-// leaves less of facades unmatched than of any real pair, and by day errs less; all else is as hard.
+// leaves less of facades unmatched than of any real pair, and errs less in daylight; all else is as hard.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThirdButForFacades) {
   HEDGEHOP_NEEDS_REAL_DATA(vision::kRealData / "stereo");
   const Pairs real_pairs = real_worlds(), clean = rendered_worlds({});

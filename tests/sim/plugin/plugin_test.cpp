@@ -66,7 +66,7 @@ TEST_F(Plugin, ParametersAreReadAsStrictlyAsOurs) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
-TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsWhatWasFlown) {
+TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsTheFlownPart) {
   const std::pair<std::string, std::string> ways[] = {{"raise_exception", "no idea"},
                                                       {"segfault", "'misbehaving' crashed (Segmentation fault)"},
                                                       {"abort", "'misbehaving' crashed (Aborted)"},
@@ -127,14 +127,15 @@ TEST_F(Plugin, AnotherInterfaceNoPluginAndNoFileAreTold) {
     EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
   };
   told(HEDGEHOP_OLD, "built against another interface (modules 0)");
-  told("nowhere.so", "no such file");
+  told("missing.so", "no such file");
   told(folder.write("text.so", "no library").string(), "cannot be loaded");
   fly_by(HEDGEHOP_MISBEHAVING, "parameters: {}");
   const CommandEnd misspelt = folder.hedgehop("run plug.yaml --set avoidance.module=misbehavin --no-video --out out");
   EXPECT_EQ(misspelt.status, 2) << misspelt.out;
 }
 
-/// As a user would: install, build the documentation's example in a folder of its own, fly it with what is installed.
+/// As a user would: install, build the documentation's example in a folder of its own, fly it with the installed
+/// package.
 TEST_F(Plugin, TheExampleBuildsAgainstTheInstalledPackageAndFlies) {
   const CommandEnd installed =
       folder.shell("cmake --install '" HEDGEHOP_BUILD_DIR "' --prefix '" + (folder.path() / "prefix").string() + "'");

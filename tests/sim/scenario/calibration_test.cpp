@@ -41,7 +41,7 @@ RigConfig three_cameras(bool with_k3) {
   return rig;
 }
 
-/// What another program's camera makes of points in front of it, beside what ours does.
+/// Compares the pixels of another program's camera with ours, for points in front of it.
 void expect_same_pixels(const CameraConfig& config, bool fisheye, const cv::Mat& K, const cv::Mat& D) {
   std::mt19937_64 random(32);
   for (int i = 0; i < 50; ++i) {
@@ -111,7 +111,7 @@ TEST(Calibration, KalibrsChainHoldsLensesAndPoses) {
   }
 }
 
-TEST(Calibration, RefusesWhatAFormatCannotSay) {
+TEST(Calibration, RefusesLensesThatAFormatCannotHold) {
   EXPECT_THAT([] { kalibr_calibration(three_cameras(true)); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("camera 'left' has k3")));
   RigConfig rig = three_cameras(true);

@@ -7,7 +7,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// What is wrong with a formula; "" when nothing is.
+/// Returns the error of a formula; "" if it is valid.
 std::string fault(const std::string& text) {
   try {
     parse_formula(text);

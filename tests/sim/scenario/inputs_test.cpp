@@ -27,7 +27,7 @@ TEST(Sha256, IsThatOfTheStandard) {
 
 TEST(Inputs, HoldEveryFileThatAFlightDependsOn) {
   const Folder folder;
-  const std::filesystem::path deep = "far/deep/er";  // four folders below what the source may lie beside
+  const std::filesystem::path deep = "far/deep/er";  // four folders below the folder of the source
   Folder::write("far/base.yaml",
                 "use: " HEDGEHOP_SOURCE_DIR "/configs/garratt2009_room_0_light.yaml\nrig: {use: rig.yaml}\n");
   Folder::write("far/rig.yaml", "cameras: []\n");

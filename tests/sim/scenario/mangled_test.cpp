@@ -6,7 +6,7 @@
 #include "sim/scenario/scenario.h"
 #include "tests/sim/config/input_files.h"
 
-/// Scenarios that are damaged load or are refused; nothing else may happen.
+/// Damaged scenarios must load or be refused.
 namespace hedgehop::sim {
 namespace {
 

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-/// The one camera of a rig file that holds these keys beside its role.
+/// The one camera of a rig file that has these keys and a role.
 CameraConfig camera_of(const std::string& keys) {
   Folder::write("rig.yaml", "cameras:\n  - {role: a, " + keys + "}\n");
   return load_struct<RigConfig>("rig.yaml").cameras.at(0);
@@ -67,7 +67,7 @@ TEST(RigFile, AFisheyeEndsAtItsLimit) {
   EXPECT_FALSE(camera.project({std::sin(97.1 * kRadPerDeg), 0, std::cos(97.1 * kRadPerDeg)}).has_value());
 }
 
-TEST(RigFile, ACalibrationIsFoundBesideTheFileThatNamesIt) {
+TEST(RigFile, ACalibrationIsRelativeToTheFileThatNamesIt) {
   Folder folder;
   Folder::write("rigs/lens.txt", vision::kSmallCalibration);
   Folder::write("rigs/rig.yaml",
@@ -76,7 +76,7 @@ TEST(RigFile, ACalibrationIsFoundBesideTheFileThatNamesIt) {
   EXPECT_EQ(camera.model(), vision::camera::Camera(vision::camera::parse_ocam_calibration(vision::kSmallCalibration)));
   EXPECT_TRUE(camera.calibration.is_absolute());
 
-  // What is written back names the same file from any folder.
+  // The written rig names the same file from any folder.
   RigConfig rig;
   rig.cameras = {camera};
   Folder::write("elsewhere/rig.yaml", yaml_text(outline_fields(rig)));

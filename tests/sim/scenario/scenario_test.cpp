@@ -79,7 +79,7 @@ TEST(Removed, KeyChanceNamesItsReplacement) {
                                     "bound a rate, use `hedgehop batch --until`")));
 }
 
-/// What does not fit together, in a scenario that is otherwise whole.
+/// Contradictions in a scenario that is otherwise valid.
 class CrossRules : public testing::Test {
  protected:
   /// Numbers that messages repeat are set here: the shipped ones may be tuned.
@@ -109,7 +109,7 @@ TEST_F(CrossRules, RatesDivideThePhysicsRate) {
                                 "number of nanoseconds"));
 }
 
-TEST_F(CrossRules, TheRigHasTheCamerasThatAreAskedFor) {
+TEST_F(CrossRules, TheRigHasTheRequiredCameras) {
   EXPECT_THAT(
       faults({"velocimeter.camera=dwn"}),
       ElementsAre("--set velocimeter.camera: 'velocimeter.camera': needs a camera 'dwn', which the rig does not "
@@ -160,7 +160,7 @@ TEST_F(CrossRules, ChecksMakeSense) {
                   "--set checks: 'checks.0.before': is after the end of the flight (400 s)"));
 }
 
-/// Keys of all lengths below an outline; not those in lists, which an override sets as a whole where no file does.
+/// Keys of all lengths below an outline; not those in lists, which an override sets as a whole if no file does.
 void collect_lengths(const ConfigOutline& node, const std::string& path, std::vector<std::string>& keys) {
   if (node.kind == ConfigOutline::Kind::list || !node.present) return;
   if (node.kind == ConfigOutline::Kind::number && node.field.unit == "m") keys.push_back(path);

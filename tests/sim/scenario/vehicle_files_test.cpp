@@ -42,7 +42,7 @@ TEST_P(VehicleFile, HoversAndFliesForwardsAndBackwardsInTrim) {
 }
 
 // The properties are the table of step responses in docs/verification.md.
-TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetersASecond) {
+TEST_P(VehicleFile, FollowsAVelocityStepOfTwoMetersPerSecond) {
   dynamics::Loop loop;
   loop.perfect = true;
   loop.vehicle = load_vehicle(GetParam());

@@ -1,4 +1,4 @@
-// One short flight a module past an obstacle, on drawn images, beside the control that flies
+// One short flight per module past an obstacle, with rendered images, compared with a control that flies
 // straight on: the whole loop from pixels to clearance. Images are small and rates low, so that each takes seconds.
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// @param text  a scenario, but for what all of them share; `~` stands for the folder of the configurations.
+/// @param text  a scenario without the keys that all of them share; `~` is the folder of the configurations.
 Scenario short_flight(const std::string& name, std::string text, std::vector<std::string> overrides = {}) {
   text = "name: " + name + "\nfilm: {enabled: false}\n" + text;
   const std::string configs = HEDGEHOP_SOURCE_DIR "/configs";
@@ -132,7 +132,7 @@ avoidance:
                  /*clearance_m=*/2.5, "tower", "3");
 }
 
-// It explores a room and knows no goal: where the control meets the wall ahead, it turns away and flies on.
+// It explores a room without a goal. The control flight hits the wall ahead; the module turns away and continues.
 TEST(AvoidanceFlight, ZigZagTurnsAwayFromTheWallAhead) {
   const std::string room = R"(
 duration: 12

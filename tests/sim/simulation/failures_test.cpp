@@ -10,7 +10,7 @@
 #include "sim/config/input_error.h"
 #include "sim/simulation/simulation.h"
 
-/// What fails in flight, told by what the truth does then.
+/// Failures in flight, detected in the true motion.
 namespace hedgehop::sim {
 namespace {
 
@@ -92,7 +92,7 @@ TEST(FailuresInFlight, FrozenBlackAndLostCamerasDeliverThat) {
 
 TEST(FailuresInFlight, MotorAtNineTenthsPitchesNoFasterThanByTheTorqueItLost) {
   // The front rotor of a plus loses 19 % of its thrust, a quarter of the weight, at the length of its arm;
-  // what its nose gains in downward rate within a motor's few time constants is that torque over the inertia.
+  // the downward rate of its nose within a motor's few time constants is that torque over the inertia.
   const Flight flight = Simulation(hovering("[{at: 2, what: motor.0, mode: factor, value: 0.9}]", "3")).run();
   constexpr double kWindowS = 0.1, kWeightN = 0.716 * 9.81, kArmM = 0.17, kInertia = 0.007, kTauDownS = 0.025;
   const double torque_nm = 0.19 * 0.25 * kWeightN * kArmM;

@@ -1,7 +1,7 @@
 // Flies scenarios again and again in one process, for scripts/soak:
 //   hedgehop_soak MINUTES RENDERER SCENARIO...
 // RENDERER: as of `--renderer`. Each flight must have the hash of its first round, memory and open files those of the
-// third round. Prints a line a round; exit status 1 where something differs.
+// third round. Prints a line a round; exit status 1 if something differs.
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace hedgehop::sim;
 
-/// Resident memory without what the allocator keeps for later, MB.
+/// Returns the resident memory without the free memory of the allocator, MB.
 double memory_mb() {
   malloc_trim(0);
   std::ifstream statm("/proc/self/statm");

@@ -67,7 +67,7 @@ TEST(Stepping, ResetBeginsTheSameFlightOrThatOfAnotherSeed) {
   expect_equal(used.run(), Simulation(city({"seed=7"})).run());
 }
 
-TEST(Stepping, CommandsFromOutsideFlyWhatAModuleWithTheSameLawFlies) {
+TEST(Stepping, CommandsOfTheCallerGiveTheFlightOfAModuleWithTheSameLaw) {
   Simulation commanded(straight());
   while (!commanded.over()) {
     const avoidance::Observation seen = commanded.seen();
@@ -100,7 +100,7 @@ TEST(Stepping, ASpeedAboveTheLimitIsScaledDownToIt) {
   EXPECT_NEAR(commanded.y(), 0.8 * limit_mps, 1e-9);
 }
 
-TEST(Stepping, WhatIsOverGivesItsResultAndTakesNoStep) {
+TEST(Stepping, AFlightThatIsOverGivesItsResultAndTakesNoStep) {
   Simulation simulation(city({"duration=0.1"}));
   EXPECT_THROW(simulation.result(), std::logic_error);
   const std::vector<CheckResult> at_first = simulation.checks_so_far();
@@ -113,7 +113,7 @@ TEST(Stepping, WhatIsOverGivesItsResultAndTakesNoStep) {
   EXPECT_EQ(simulation.result().result.flight_time_s, 0.1);
 }
 
-TEST(Stepping, WhatIsAskedForDoesNotDisturbTheFlight) {
+TEST(Stepping, QueriesDoNotChangeTheFlight) {
   Simulation asked(city());
   while (!asked.over()) {
     asked.image("front", ImageChannel::color);
@@ -135,7 +135,7 @@ TEST(Stepping, TruthAndEstimateAreThoseOfTheTrajectory) {
   }
   const Flight flight = simulation.result();
   for (size_t i = 0; i < truth.size(); ++i) {
-    const TrajectoryRow& row = flight.trajectory.at(4 * i);  // 100 Hz beside 25 Hz
+    const TrajectoryRow& row = flight.trajectory.at(4 * i);  // 100 Hz compared with 25 Hz
     EXPECT_EQ(row.p_WB_true, truth[i].p_WB);
     EXPECT_EQ(row.p_WB_est, p_WB_est[i]);
   }
@@ -179,7 +179,7 @@ TEST(Stepping, SimulationsBeginAndEndOnSeveralThreadsAtATime) {
   EXPECT_EQ(equal, std::vector<int>(4, 50));
 }
 
-TEST(Stepping, HoveringSeesTheCamerasItIsAskedFor) {
+TEST(Stepping, HoveringReceivesTheGivenCameras) {
   const Scenario scenario = city();
   Simulation simulation(scenario, hovering(scenario.rig, {"front", "down"}));
   ASSERT_EQ(simulation.seen().frames.size(), 2U);

@@ -14,10 +14,10 @@ using ::testing::HasSubstr;
 
 constexpr double kDurationS = 2.0, kAtS = 0.9;
 
-/// Two seconds with a module of the tree, where its images are.
+/// Two seconds with a module of the tree, in a scenario that suits it.
 struct ModuleFlight {
   std::string module, file;
-  std::vector<std::string> overrides;  ///< what the file does not have
+  std::vector<std::string> overrides;  ///< of the file
 };
 
 std::vector<ModuleFlight> module_flights() {
