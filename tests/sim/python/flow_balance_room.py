@@ -5,7 +5,7 @@ import numpy as np
 
 import hedgehop
 
-#: Where each camera looks, forward and right of the vehicle.
+#: Direction of each camera: forward, right.
 DIRECTIONS = {"front": (1.0, 0.0), "right": (0.0, 1.0), "rear": (-1.0, 0.0), "left": (0.0, -1.0)}
 
 

@@ -50,7 +50,7 @@ GO_TO_GOAL = textwrap.dedent("""
             return hedgehop.HoverCommand()
 
 
-    class ReturnsNothing:
+    class ReturnsNone:
         def update(self, observation):
             pass
 
@@ -198,7 +198,7 @@ class FromFile(unittest.TestCase):
         self.assertIn("annotate() must return None or an array", result["cause"])
 
     def test_an_update_that_returns_none_is_reported(self):
-        _, result, _ = run_program(CITY, self.python("ReturnsNothing"), self.folder / "nothing")
+        _, result, _ = run_program(CITY, self.python("ReturnsNone"), self.folder / "none")
         self.assertEqual(result["cause"], "the module failed at 0.000 s: update() returned None, not a command or a Decision")
 
     def test_an_interrupt_ends_the_program_and_is_not_a_fault(self):

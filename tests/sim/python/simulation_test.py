@@ -117,8 +117,8 @@ class BadCalls(unittest.TestCase):
             hedgehop.Simulation(CITY, set={**SHORT, "duraton": 3})
         self.assertIn(str(error.exception), said)
         with self.assertRaisesRegex(hedgehop.InputError, "there is no such file"):
-            hedgehop.Simulation("nowhere.yaml")
-        with self.assertRaisesRegex(hedgehop.InputError, "no finite number"):
+            hedgehop.Simulation("missing.yaml")
+        with self.assertRaisesRegex(hedgehop.InputError, "not a finite number"):
             hedgehop.Simulation(CITY, set={"duration": math.nan})
         with self.assertRaisesRegex(hedgehop.InputError, "its cameras: left, right, front, rear, down"):
             city().image("top")
