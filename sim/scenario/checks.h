@@ -122,7 +122,7 @@ inline constexpr auto kJudgesMetrics = std::to_array<std::string_view>({"success
 struct MetricCheck {
   static constexpr std::string_view kName = "metric";
   static constexpr std::string_view kMeaning =
-      "a figure of the flight lies between bounds: the judge's (docs/metrics.md) or, as module.NAME, the module's own";
+      "a metric of the flight (docs/metrics.md), or a metric module.NAME of the module, is within bounds";
   std::string name;
   std::optional<double> at_least, at_most;
 };
@@ -150,7 +150,7 @@ void describe(Visitor& v, fields::ConfigOf<FloorVisitedCheck> auto& c) {
 struct PathToleranceCheck {
   static constexpr std::string_view kName = "path_tolerance";
   static constexpr std::string_view kMeaning =
-      "the path follows a reference that `hedgehop bless` has written, close by and to its end";
+      "the path follows a reference of `hedgehop bless` within a tolerance and to its end";
   enum class Measure { band, frechet, dtw };
   std::string reference;  ///< file; absolute once a scenario is loaded
   double at_most_m = 0.0;
