@@ -22,7 +22,7 @@ Vector2d along(const BoxConfig& box) { return {std::cos(box.heading_rad), std::s
 Vector2d across(const BoxConfig& box) { return {-std::sin(box.heading_rad), std::cos(box.heading_rad)}; }
 Vector2d middle(const BoxConfig& box) { return {box.north_m, box.east_m}; }
 
-/// Half the extent of a box along a direction of length 1.
+/// Returns half the extent of a box along a unit vector.
 double half_extent_m(const BoxConfig& box, const Vector2d& direction) {
   return 0.5 *
          (box.length_m * std::abs(along(box).dot(direction)) + box.width_m * std::abs(across(box).dot(direction)));
@@ -37,7 +37,7 @@ double outside_m(const FalsifyBoxes& range, const BoxConfig& box) {
   return sum_m;
 }
 
-/// Whether the vehicle gets past the boxes from the start to each place of the route and to the goal.
+/// Returns whether a collision-free path leads from the start through the waypoints of the route to the goal.
 bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
   constexpr double kClearM = 0.5, kCellM = 0.5, kMarginM = 20.0;
   if (!scenario.goal) return true;
@@ -63,19 +63,19 @@ bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
 }  // namespace
 
 double overlap_m(const BoxConfig& a, const BoxConfig& b) {
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (const Vector2d& axis : {along(a), across(a), along(b), across(b)}) {
     const double apart_m = std::abs(axis.dot(middle(a) - middle(b)));
-    least_m = std::min(least_m, half_extent_m(a, axis) + half_extent_m(b, axis) - apart_m);
+    min_m = std::min(min_m, half_extent_m(a, axis) + half_extent_m(b, axis) - apart_m);
   }
-  return least_m;
+  return min_m;
 }
 
 double plan_distance_m(const BoxConfig& box, const Vector2d& p_NE_m) {
   const Vector2d p = p_NE_m - middle(box);
-  const double beyond_m = std::max(0.0, std::abs(p.dot(along(box))) - 0.5 * box.length_m);
-  const double beside_m = std::max(0.0, std::abs(p.dot(across(box))) - 0.5 * box.width_m);
-  return std::hypot(beyond_m, beside_m);
+  const double along_m = std::max(0.0, std::abs(p.dot(along(box))) - 0.5 * box.length_m);
+  const double across_m = std::max(0.0, std::abs(p.dot(across(box))) - 0.5 * box.width_m);
+  return std::hypot(along_m, across_m);
 }
 
 std::vector<BoxConfig> boxes_at(const FalsifySearch& search, const std::vector<std::string>& values) {
@@ -99,18 +99,19 @@ std::vector<BoxConfig> boxes_at(const FalsifySearch& search, const std::vector<s
 
 double violation(const FalsifySearch& search, const std::vector<BoxConfig>& boxes) {
   double sum = 0.0;
-  const auto asks = [&](FalsifyConstraint constraint) {
+  const auto requires_constraint = [&](FalsifyConstraint constraint) {
     return std::ranges::find(search.config.constraints, constraint) != search.config.constraints.end();
   };
-  if (asks(FalsifyConstraint::boxes_inside)) {
+  if (requires_constraint(FalsifyConstraint::boxes_inside)) {
     for (const BoxConfig& box : boxes) sum += outside_m(*search.config.boxes, box);
   }
-  if (asks(FalsifyConstraint::boxes_apart)) {
+  if (requires_constraint(FalsifyConstraint::boxes_apart)) {
     for (size_t i = 0; i < boxes.size(); ++i) {
       for (size_t k = 0; k < i; ++k) sum += std::max(0.0, overlap_m(boxes[i], boxes[k]));
     }
   }
-  if (sum == 0.0 && asks(FalsifyConstraint::way_exists) && !way_exists(search.scenario, boxes)) sum = 1.0;
+  if (sum == 0.0 && requires_constraint(FalsifyConstraint::way_exists) && !way_exists(search.scenario, boxes))
+    sum = 1.0;
   return sum;
 }
 

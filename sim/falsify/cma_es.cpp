@@ -53,7 +53,7 @@ void CmaEs::adapt(std::vector<CostedPoint> generation) {
   for (Eigen::Index i = 0; i < s.weights.size(); ++i) mean_ += s.weights[i] * generation[static_cast<size_t>(i)].x;
   const VectorXd moved = (mean_ - before) / sigma_;
 
-  // Step size: by the path that the mean takes in coordinates where the covariance is the identity.
+  // Step size: from the evolution path in whitened coordinates (identity covariance).
   const VectorXd whitened = B_ * (B_.transpose() * moved).cwiseQuotient(D_);
   p_sigma_ = (1.0 - s.c_sigma) * p_sigma_ + std::sqrt(s.c_sigma * (2.0 - s.c_sigma) * s.mu_eff) * whitened;
   ++generations_;
@@ -61,7 +61,7 @@ void CmaEs::adapt(std::vector<CostedPoint> generation) {
   const double length = p_sigma_.norm() / s.chi_n;
   const bool path_is_short = length / warm < 1.4 + 2.0 / (static_cast<double>(mean_.size()) + 1.0);  // h_sigma
 
-  // Covariance: by the mean's path, and by the best points.
+  // Covariance: from the path of the mean (rank one) and from the best points (rank mu).
   p_c_ = (1.0 - s.c_c) * p_c_;
   if (path_is_short) p_c_ += std::sqrt(s.c_c * (2.0 - s.c_c) * s.mu_eff) * moved;
   const double lost = path_is_short ? 0.0 : s.c_1 * s.c_c * (2.0 - s.c_c);
@@ -77,9 +77,9 @@ void CmaEs::adapt(std::vector<CostedPoint> generation) {
 void CmaEs::decompose() {
   C_ = 0.5 * (C_ + C_.transpose()).eval();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(C_);
-  constexpr double kLeast = 1e-20;  // round-off must not make a direction imaginary
+  constexpr double kMinEigenvalue = 1e-20;  // round-off must not make an eigenvalue negative
   B_ = solver.eigenvectors();
-  D_ = solver.eigenvalues().cwiseMax(kLeast).cwiseSqrt();
+  D_ = solver.eigenvalues().cwiseMax(kMinEigenvalue).cwiseSqrt();
 }
 
 }  // namespace hedgehop::sim

@@ -23,7 +23,7 @@ bool same_failure(const FlightRecord& a, const FlightRecord& b, const std::strin
   return hash_of(a) == hash_of(b) && of_a.name == of_b.name && of_a.robustness == of_b.robustness;
 }
 
-/// The scenario of the shrunk flight, ready to be kept as a test.
+/// Writes the scenario of the shrunk flight, which can serve as a regression test, and returns its file.
 std::filesystem::path write_scenario(const Counterexample& found, const std::string& name,
                                      const std::string& search_file, const std::string& check,
                                      const std::filesystem::path& out) {
@@ -90,7 +90,7 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
   found.file = write_scenario(found, name, search_file, check, out);
   found.folder = "counterexamples/" + name;
   Order kept = file_order(found.file, found.folder);
-  kept.scenario_yaml = to_yaml(load_scenario(found.file));  // with its film
+  kept.scenario_yaml = to_yaml(load_scenario(found.file));  // which records a video
   const std::optional<FlightRecord> confirmed = fly.with_report(kept);
   if (!confirmed) return {};
   found.confirmed = same_failure(found.shrunk.record, *confirmed, check);

@@ -10,30 +10,30 @@
 
 namespace hedgehop::sim {
 
-/// A failure of a search, flown again, shrunk and kept.
+/// A failure of a search after it was flown again, shrunk and stored.
 struct Counterexample {
   size_t trial = 0;      ///< of the search
-  bool repeats = false;  ///< flown again in a process of its own it was the same flight, bit for bit
+  bool repeats = false;  ///< whether a second flight in a new process was equal, bit for bit
   Shrunk shrunk;
   WeakestCheck weakest;        ///< of the shrunk flight
   std::filesystem::path file;  ///< its scenario, with `origin`
-  std::string folder;          ///< of its flight, with film and report, relative to the search's
-  bool confirmed = false;      ///< the file's flight, in a process of its own, was the shrunk one, bit for bit
+  std::string folder;          ///< of its flight, with video and report, relative to the search's
+  bool confirmed = false;      ///< whether the file's flight in a new process equals the shrunk one, bit for bit
 };
 
-/// Where flights of counterexamples are flown, relative to the search's folder.
+/// Functions that fly counterexamples. The ids of their orders are folders relative to the search's folder.
 struct CounterexampleFlights {
   FlyOne plain;
-  FlyOne with_report;  ///< leaves film and report
+  FlyOne with_report;  ///< also writes video and report
 };
 
-/// Flies a failure again, shrinks it and writes counterexamples/<name>.yaml. Nothing when it was interrupted.
-/// @param search_file  as the user named it, for the origin. @param out  the search's folder. @param number  from 1.
+/// Flies a failure again, shrinks it and writes counterexamples/<name>.yaml. Returns nullopt if interrupted.
+/// @param search_file  path as the user gave it, for the origin. @param out  the search's folder. @param number from 1.
 std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, const std::string& search_file,
                                                   const FalsifyResult& result, size_t number,
                                                   const std::filesystem::path& out, const CounterexampleFlights& fly);
 
-/// Text of falsify.json: the search, its flights, failures and counterexamples.
+/// Returns the text of falsify.json: the search, its flights, failures and counterexamples.
 std::string falsify_json(const FalsifySearch& search, const FalsifyResult& result,
                          const std::vector<Counterexample>& counterexamples);
 

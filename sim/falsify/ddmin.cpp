@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// `parts` parts of nearly equal size.
+/// Returns the items in `parts` parts of nearly equal size.
 std::vector<Subset> split(const Subset& items, size_t parts) {
   std::vector<Subset> chunks;
   for (size_t i = 0; i < parts; ++i) {
@@ -53,8 +53,8 @@ Subset ddmin(size_t count, const std::function<bool(const Subset&)>& fails) {
     if (parts == items.size()) break;
     parts = std::min(items.size(), 2 * parts);  // finer
   }
-  const bool needs_nothing = items.size() == 1 && test({});
-  return needs_nothing ? Subset{} : items;
+  const bool empty_fails = items.size() == 1 && test({});
+  return empty_fails ? Subset{} : items;
 }
 
 }  // namespace hedgehop::sim

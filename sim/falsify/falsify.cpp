@@ -18,11 +18,11 @@ namespace {
 
 using Coordinates = std::vector<double>;
 
-constexpr double kInfeasibleCost = 50.0;  // above any margin of interest, in m
-constexpr int kRedraws = 20;              // of a point of a generation that cannot be flown
-constexpr double kApart = 0.1;            // of the ranges: failures nearer to each other count as one
+constexpr double kInfeasibleCost = 50.0;  // m, above any margin of interest
+constexpr int kRedraws = 20;              // of an infeasible point of a generation
+constexpr double kMinDistance = 0.1;      // share of the ranges: failures closer to each other count as one
 
-/// The end of a search that is not done: interrupted, out of flights, or no failure is wanted any more.
+/// Thrown to end a search: interrupted, budget exhausted, or all required failures found.
 struct SearchEnds {};
 
 class Search {
@@ -66,13 +66,13 @@ class Search {
 
   Coordinates random_point() {
     Coordinates point(dimensions());
-    constexpr int kMostDraws = 20'000;
-    for (int draw = 0; draw < kMostDraws; ++draw) {
+    constexpr int kMaxDraws = 20'000;
+    for (int draw = 0; draw < kMaxDraws; ++draw) {
       for (double& coordinate : point) coordinate = uniform(random_);
       if (violation_at(point) == 0.0) return point;
       ++result_.infeasible;
     }
-    throw InputError(fmt::format("of {} random points none keeps the constraints", kMostDraws));
+    throw InputError(fmt::format("0 of {} random points satisfy the constraints", kMaxDraws));
   }
   std::vector<Coordinates> random_points(size_t count) {
     std::vector<Coordinates> points;
@@ -80,7 +80,7 @@ class Search {
     return points;
   }
 
-  /// Flies points that keep the constraints, as many as the budget allows. Throws SearchEnds when the search is over.
+  /// Flies feasible points, as many as the budget allows. Throws SearchEnds if the search is over.
   void fly_generation(std::vector<Coordinates> points, size_t generation) {
     points.resize(std::min(points.size(), points_left()));
     if (points.empty()) throw SearchEnds{};
@@ -102,7 +102,7 @@ class Search {
   }
   bool has_enough() const { return result_.failures.size() >= static_cast<size_t>(design_.failures); }
 
-  /// A point that the scenario refuses is an order that is not flown.
+  /// Adds the orders of a point. If the scenario refuses the point, the orders carry a fault and are not flown.
   void add_point(size_t number, const Coordinates& point, SweepOrders& orders) {
     const std::vector<std::string> values = values_at(point);
     try {
@@ -118,7 +118,7 @@ class Search {
     }
   }
 
-  /// Adds a point, whose flights are the records from number `first` on.
+  /// Adds a flown point. @param first  index of its first flight in `records`.
   void judge(FalsifyTrial trial, const std::vector<FlightRecord>& records, size_t first) {
     for (size_t k = first; k < first + seeds(); ++k) {
       const WeakestCheck weakest = weakest_check(records[k], search_.config.robustness);
@@ -133,7 +133,7 @@ class Search {
   bool is_new(const FalsifyTrial& trial) const {
     return std::ranges::none_of(result_.failures, [&](size_t failure) {
       const FalsifyTrial& known = result_.trials[failure];
-      return known.weakest.name == trial.weakest.name && distance(known.coordinates, trial.coordinates) < kApart;
+      return known.weakest.name == trial.weakest.name && distance(known.coordinates, trial.coordinates) < kMinDistance;
     });
   }
   static double distance(const Coordinates& a, const Coordinates& b) {
@@ -142,10 +142,10 @@ class Search {
     return std::sqrt(sum / static_cast<double>(a.size()));
   }
 
-  /// Random points first; then one descent after the other, each from the best of them that none began at.
+  /// Flies random points first, then descends from each of them, the best first.
   void evolve() {
-    constexpr size_t kMostDraws = 20;
-    const size_t draws = std::min(kMostDraws, std::max<size_t>(1, points_left() / 5));
+    constexpr size_t kMaxStarts = 20;
+    const size_t draws = std::min(kMaxStarts, std::max<size_t>(1, points_left() / 5));
     for (size_t flown = 0; flown < draws; flown = result_.trials.size()) {
       fly_generation(random_points(std::min(population(), draws - flown)), 0);
     }
@@ -159,7 +159,7 @@ class Search {
     }
   }
 
-  /// One evolution, until it finds a failure or no more improvement.
+  /// Runs one evolution until it finds a failure or stops improving.
   void descend(const Coordinates& start) {
     constexpr double kStep = 0.15;  // of the ranges
     constexpr int kPatience = 6;    // generations
@@ -181,18 +181,18 @@ class Search {
       }
       const size_t first = result_.trials.size(), failures = result_.failures.size();
       if (!feasible.empty()) fly_generation(feasible, ++generations_);
-      double least = kInfeasibleCost;
+      double min_cost = kInfeasibleCost;
       for (size_t i = 0; i < places.size(); ++i) {
-        least = std::min(least, generation[places[i]].cost = result_.trials[first + i].weakest.robustness);
+        min_cost = std::min(min_cost, generation[places[i]].cost = result_.trials[first + i].weakest.robustness);
       }
-      if (result_.failures.size() > failures) return;  // another is to be found elsewhere
-      if (least < best - kImprovement) idle = -1;
-      best = std::min(best, least);
+      if (result_.failures.size() > failures) return;  // the next one is searched from another start
+      if (min_cost < best - kImprovement) idle = -1;
+      best = std::min(best, min_cost);
       evolution.adapt(std::move(generation));
     }
   }
 
-  /// A point of the evolution inside the ranges and, if one is found soon, one that keeps the constraints.
+  /// Returns a point of the evolution inside the ranges, feasible if kRedraws draws yield such a point.
   Coordinates drawn(CmaEs& evolution) {
     Coordinates point(dimensions());
     for (int draw = 0; draw < kRedraws; ++draw) {
@@ -206,12 +206,12 @@ class Search {
     return point;
   }
 
-  /// DIRECT, which takes one point after the other.
+  /// Runs DIRECT, which flies one point at a time.
   void divide() {
-    constexpr int kPointsAFlight = 20;  // most that constraints may take of a budget
+    constexpr int kPointsPerFlight = 20;  // maximum; all but one of them violate the constraints
     minimize({.method = OptimizeDesign::Method::direct,
               .dimensions = dimensions(),
-              .most_points = kPointsAFlight * static_cast<int>(design_.budget)},
+              .most_points = kPointsPerFlight * static_cast<int>(design_.budget)},
              [&](const Coordinates& point) { return cost(point); });
   }
   double cost(const Coordinates& point) {

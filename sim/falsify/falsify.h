@@ -10,35 +10,35 @@
 
 namespace hedgehop::sim {
 
-/// A point that was flown.
+/// A flown point.
 struct FalsifyTrial {
-  std::vector<double> coordinates;  ///< of the unit cube, one a parameter of the search's sweep
+  std::vector<double> coordinates;  ///< in the unit cube, one per parameter of the search's sweep
   std::vector<std::string> values;
   size_t generation = 0;  ///< 0 for random points
-  WeakestCheck weakest;   ///< of all seeds
-  size_t record = 0;      ///< number of the flight that has it
+  WeakestCheck weakest;   ///< over all seeds
+  size_t record = 0;      ///< number of the flight of the weakest check
 
   bool fails() const { return weakest.robustness < 0.0; }
 };
 
-/// What a search has done.
+/// The flights and failures of a search.
 struct FalsifyResult {
   SweepOrders orders;                 ///< of every flight, in order
-  std::vector<FlightRecord> records;  ///< of those
-  std::vector<FalsifyTrial> trials;   ///< in order, one a point
-  std::vector<size_t> failures;       ///< numbers of trials: distinct ones, in the order they were found
-  size_t infeasible = 0;              ///< points that broke a constraint and were not flown
-  bool stopped = false;               ///< by `fly`, before the search was done
+  std::vector<FlightRecord> records;  ///< of the orders
+  std::vector<FalsifyTrial> trials;   ///< in order, one per point
+  std::vector<size_t> failures;       ///< numbers of distinct failing trials, in order of discovery
+  size_t infeasible = 0;              ///< points that violated a constraint and were not flown
+  bool stopped = false;               ///< by `fly`, before the search ended
 };
 
-/// Searches for points whose least robust check fails, with at most the budget's flights. Points are flown by
-/// generations; a generation in which the last wanted failure is found is flown to its end, so that the result is the
-/// same for any number of workers, and flights that an interrupted search left are found again. Two failures are
-/// distinct where another check fails, or where their points are apart by a tenth of the ranges (root mean square).
-/// Throws InputError when hardly any point keeps the constraints.
+/// Searches for points whose weakest check fails, within the budget of flights. Points are flown in generations. A
+/// generation is always completed, even if it contains the last required failure. The result is therefore the same for
+/// any number of workers, and a resumed search reuses the flights of the interrupted one. Two failures are distinct if
+/// different checks fail, or if the distance of their points is at least a tenth of the ranges (root mean square).
+/// Throws InputError if almost no point satisfies the constraints.
 FalsifyResult falsify(const FalsifySearch& search, const FlyPoint& fly);
 
-/// The flights' table, with generation, the least robust check and its robustness beside the parameters.
+/// Returns the table of flights with columns for the generation, the weakest check, its robustness and the parameters.
 Table falsify_table(const FalsifySearch& search, const FalsifyResult& result);
 
 }  // namespace hedgehop::sim

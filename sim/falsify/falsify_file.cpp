@@ -15,15 +15,15 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kMostForDirect = 5;  // unknowns; DIRECT divides the whole box, so it needs ever more flights
+constexpr size_t kMaxForDirect = 5;  // unknowns; the flights that DIRECT needs grow steeply with the dimension
 
-/// A box's unknowns: key and range.
+/// Returns the unknowns of a box: key and range.
 std::vector<std::pair<std::string_view, Eigen::Vector2d>> ranges(const FalsifyBoxes& c) {
   return {{"north", c.north_m}, {"east", c.east_m},     {"length", c.length_m},
           {"width", c.width_m}, {"height", c.height_m}, {"heading", c.heading_deg}};
 }
 
-/// The boxes as one override, in the middle of their ranges, and their ranges as parameters.
+/// Adds one override that places the boxes at the middles of their ranges, and one parameter per range.
 void add_boxes(const FalsifyBoxes& boxes, FalsifySearch& search) {
   std::string list;
   for (size_t k = 0; k < static_cast<size_t>(boxes.count); ++k) {
@@ -36,7 +36,7 @@ void add_boxes(const FalsifyBoxes& boxes, FalsifySearch& search) {
       parameter.to = range[1];
       search.sweep.parameters.push_back(parameter);
       const bool is_size = key == "length" || key == "width" || key == "height";
-      search.neutral.push_back(is_size ? std::optional(range[0]) : std::nullopt);  // a small box disturbs least
+      search.neutral.push_back(is_size ? std::optional(range[0]) : std::nullopt);  // a small box is a small disturbance
     }
     list += "}";
   }
@@ -69,22 +69,23 @@ class Inspector {
       if (p.path == "seed") add(at, "'seed': varied by 'seeds', not as a parameter");
       if (!(p.from < p.to)) add(at + ".to", fmt::format("'{}': 'from' must be less than 'to'", p.path));
       if (p.scale == SweepParameter::Scale::log && !(p.from > 0.0)) add(at + ".from", "a log range needs 'from' > 0");
-      if (!paths.insert(p.path).second) add(at, fmt::format("'{}' stands twice", p.path));
+      if (!paths.insert(p.path).second) add(at, fmt::format("'{}' occurs twice", p.path));
     }
     const size_t seeds = config_.seeds ? parse_seeds(*config_.seeds).size() : 1;
     if (static_cast<size_t>(config_.design.budget) < seeds) {
       add("design.budget",
-          fmt::format("{} flights are less than the {} of one point, one a seed", config_.design.budget, seeds));
+          fmt::format("{} flights are fewer than the {} seeds of one point", config_.design.budget, seeds));
     }
     if (config_.boxes) boxes(*config_.boxes);
-    if (!config_.constraints.empty() && !config_.boxes) add("constraints", "they are about 'boxes', which are missing");
+    if (!config_.constraints.empty() && !config_.boxes)
+      add("constraints", "'constraints' require 'boxes', which are missing");
   }
 
  private:
   void boxes(const FalsifyBoxes& c) {
     for (const auto& [key, range] : ranges(c)) {
       if (range[0] > range[1]) {
-        add(fmt::format("boxes.{}", key), fmt::format("'boxes.{}': its lower end must stand first", key));
+        add(fmt::format("boxes.{}", key), fmt::format("'boxes.{}': the lower end must come first", key));
       }
     }
   }
@@ -103,7 +104,7 @@ void require_known_checks(const FalsifySearch& search, const Node& root, ErrorLi
     faults.add(position_of(root, "robustness"),
                fmt::format("the scenario has no check '{}'{}", name, suggestion(name, known)));
   }
-  if (names.empty()) faults.add(position_of(root, "scenario"), "the scenario has no checks: nothing can fail");
+  if (names.empty()) faults.add(position_of(root, "scenario"), "the scenario has no checks that could fail");
 }
 
 }  // namespace
@@ -132,9 +133,9 @@ FalsifySearch read_falsify(const std::filesystem::path& file, std::span<const st
     add_boxes(*config.boxes, search);
   }
   add_parameters(config.parameters, search);
-  if (config.design.method == FalsifyDesign::Method::direct && search.sweep.parameters.size() > kMostForDirect) {
-    faults.add(position_of(root, "design"), fmt::format("'direct' is for up to {} unknowns, here are {}",
-                                                        kMostForDirect, search.sweep.parameters.size()));
+  if (config.design.method == FalsifyDesign::Method::direct && search.sweep.parameters.size() > kMaxForDirect) {
+    faults.add(position_of(root, "design"), fmt::format("'direct' supports up to {} unknowns; there are {}",
+                                                        kMaxForDirect, search.sweep.parameters.size()));
   }
   if (const std::vector<std::string> refused = refused_parameters(search.sweep); !refused.empty()) {
     throw InputError(refused);

@@ -11,7 +11,7 @@
 #include "sim/scenario/scenario.h"
 #include "sim/sweep/sweep_file.h"
 
-/// Searches for flights that fail.
+/// Searches for failing flights.
 namespace hedgehop::sim {
 
 /// One unknown of a search.
@@ -27,12 +27,12 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyParameter> auto& c) {
   v("path", c.path, {.required = true, .meaning = "key of the scenario, such as wind.speed or failures.0.at"});
   v("from", c.from, {.required = true, .meaning = "lower end of the range, in the key's unit"});
   v("to", c.to, {.required = true, .meaning = "upper end of the range"});
-  v("scale", c.scale, {.choices = {"linear", "log"}, .meaning = "how the range is searched"});
+  v("scale", c.scale, {.choices = {"linear", "log"}, .meaning = "scale on which the range is searched"});
   v("whole", c.whole, {.meaning = "whether values are rounded to whole numbers"});
-  v("neutral", c.neutral, {.meaning = "value that disturbs nothing; a failure is shrunk towards it"});
+  v("neutral", c.neutral, {.meaning = "value without any disturbance; failures are shrunk towards it"});
 }
 
-/// Boxes to be placed in an open field: unknowns of their own. Both ends of a range may be equal.
+/// Boxes placed by the search, whose positions and sizes are further unknowns. The ends of a range may be equal.
 struct FalsifyBoxes {
   int64_t count = 1;
   Eigen::Vector2d north_m = {0.0, 0.0}, east_m = {0.0, 0.0};
@@ -42,16 +42,17 @@ struct FalsifyBoxes {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FalsifyBoxes> auto& c) {
   v("count", c.count,
-    {.at_least = 1, .at_most = 20, .required = true, .meaning = "how many; a failure is shrunk to fewer"});
-  v("north", c.north_m, {.unit = "m", .required = true, .meaning = "range of their middles"});
-  v("east", c.east_m, {.unit = "m", .required = true, .meaning = "range of their middles"});
-  v("length", c.length_m, {.unit = "m", .above = 0.0, .meaning = "range along their headings"});
-  v("width", c.width_m, {.unit = "m", .above = 0.0, .meaning = "range across"});
-  v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "range"});
-  v("heading", c.heading_deg, {.at_least = -360.0, .at_most = 360.0, .meaning = "range, degrees from north to east"});
+    {.at_least = 1, .at_most = 20, .required = true, .meaning = "number of boxes; shrinking may remove some"});
+  v("north", c.north_m, {.unit = "m", .required = true, .meaning = "range of the centers"});
+  v("east", c.east_m, {.unit = "m", .required = true, .meaning = "range of the centers"});
+  v("length", c.length_m, {.unit = "m", .above = 0.0, .meaning = "range of the size along the heading"});
+  v("width", c.width_m, {.unit = "m", .above = 0.0, .meaning = "range of the size across the heading"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "range of the height"});
+  v("heading", c.heading_deg,
+    {.at_least = -360.0, .at_most = 360.0, .meaning = "range of the heading, degrees from north to east"});
 }
 
-/// What a point must keep to be flown; one that does not costs no flight.
+/// A constraint on points. A point that violates one is not flown and costs no flight.
 enum class FalsifyConstraint { boxes_inside, boxes_apart, way_exists };
 
 struct FalsifyDesign {
@@ -66,15 +67,15 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FalsifyDesign> auto& c) {
   v("method", c.method,
     {.choices = {"cma_es", "direct", "random"},
-     .meaning = "evolution strategy from the best of some random points; DIRECT_L of NLopt, for up to 5 unknowns; "
-                "random points alone, to compare with"});
+     .meaning = "evolution strategy, started from the best random points; DIRECT_L of NLopt, for up to 5 unknowns; "
+                "random points only, as a baseline"});
   v("budget", c.budget,
-    {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "most flights of the search"});
-  v("seed", c.seed, {.meaning = "of the search; equal ones search alike"});
+    {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "maximum number of flights of the search"});
+  v("seed", c.seed, {.meaning = "seed of the search; equal seeds give equal searches"});
   v("failures", c.failures,
-    {.at_least = 1, .at_most = 100, .meaning = "distinct failures to find; the search stops with the last of them"});
+    {.at_least = 1, .at_most = 100, .meaning = "number of distinct failures after which the search stops"});
   v("shrinking", c.shrinking,
-    {.at_least = 0, .at_most = 10'000, .meaning = "most further flights to shrink a failure"});
+    {.at_least = 0, .at_most = 10'000, .meaning = "maximum number of further flights that shrink a failure"});
 }
 
 /// A search for flights that fail: one scenario, unknowns with bounds, a budget.
@@ -91,34 +92,35 @@ struct FalsifyConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<FalsifyConfig> auto& c) {
-  v("description", c.description, {.meaning = "what the search is for"});
+  v("description", c.description, {.meaning = "purpose of the search"});
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds,
-    {.meaning = "seeds flown at every point, the least robust of which counts; else the scenario's own"});
+    {.meaning = "seeds flown at every point, of which the one with the minimum robustness counts; default: the "
+                "scenario's seed"});
   v("set", c.set, {.meaning = "overrides of the scenario at every point, each key.path=value"});
-  v("robustness", c.robustness, {.meaning = "names of the checks to break; all that the scenario has when not given"});
-  v("design", c.design, {.required = true, .meaning = "how to search, and how long"});
+  v("robustness", c.robustness, {.meaning = "names of the checks to violate; default: all checks of the scenario"});
+  v("design", c.design, {.required = true, .meaning = "method and budget of the search"});
   v("boxes", c.boxes, {.meaning = "boxes to place in the scene"});
   v("constraints", c.constraints,
     {.choices = {"boxes_inside", "boxes_apart", "way_exists"},
-     .meaning = "corners within the middles' range; no two overlap; a way leads past the boxes to the goal"});
+     .meaning = "corners within the range of the centers; no two boxes overlap; a path past the boxes to the goal"});
   v("parameters", c.parameters, {.meaning = "further unknowns"});
 }
 
-/// A search that was read: the scenario as it is before the unknowns are set, and the unknowns as a sweep has them.
+/// A search as read from its file: the scenario before the unknowns are set, and the unknowns as a sweep.
 struct FalsifySearch {
   FalsifyConfig config;
   Scenario scenario;
   SweepConfig sweep;                           ///< scenario, seeds, overrides, parameters
-  std::vector<std::optional<double>> neutral;  ///< of each parameter of the sweep
-  std::string identity;                        ///< differs where the file, an override or the scenario does
+  std::vector<std::optional<double>> neutral;  ///< one per parameter of the sweep
+  std::string identity;                        ///< differs if the file, an override or the scenario differs
 };
 
-/// Reads a search. Throws InputError with every fault, as read_sweep() does.
-/// @param overrides  of the search file, each key.path=value.
+/// Reads a search. Throws InputError with every fault, like read_sweep().
+/// @param overrides  overrides of the search file, each key.path=value.
 FalsifySearch read_falsify(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// Path of a number of the k-th box: "scene.boxes.0.north".
+/// Returns the path of a number of a box, such as "scene.boxes.0.north". @param box  from 0.
 std::string box_path(size_t box, std::string_view key);
 
 }  // namespace hedgehop::sim

@@ -15,7 +15,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// What can be left out, by the paths of its keys: "scene.boxes.0.".
+/// Returns the removable items of a scenario as prefixes of key paths, such as "scene.boxes.0.".
 std::vector<std::string> items_of(const Scenario& scenario) {
   std::vector<std::string> items;
   const auto add = [&items](const char* list, size_t count) {
@@ -29,7 +29,8 @@ std::vector<std::string> items_of(const Scenario& scenario) {
   return items;
 }
 
-/// Leaves out of a list what is not kept. @param item  number of the list's first item; counted on.
+/// Removes the entries of a list that are not in `kept`. @param item  number of the list's first item; advanced past
+/// its last.
 template <class T>
 void keep(std::vector<T>& list, const Subset& kept, size_t& item) {
   std::vector<T> rest;
@@ -49,12 +50,12 @@ struct Candidate {
 class Shrinker {
  public:
   Shrinker(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,
-           const std::filesystem::path& folder, size_t most_trials, const FlyOne& fly)
+           const std::filesystem::path& folder, size_t max_trials, const FlyOne& fly)
       : search_(search),
         check_(failure.weakest.name),
         seed_(record.order.seed),
         folder_(folder),
-        most_trials_(most_trials),
+        max_trials_(max_trials),
         fly_(fly) {
     best_ = {.values = failure.values, .kept = {}, .duration_s = search.scenario.duration_s};
     shrunk_.record = record;
@@ -65,16 +66,16 @@ class Shrinker {
   }
 
   Shrunk run() {
-    leave_out();
+    remove_items();
     for (size_t i = 0; i < best_.values.size(); ++i) neutralize(i);
-    cut();
+    shorten();
     round();
     shrunk_.items = best_.kept.size();
     return std::move(shrunk_);
   }
 
  private:
-  void leave_out() {
+  void remove_items() {
     const Candidate all = best_;
     ddmin(items_.size(), [&](const Subset& kept) {
       Candidate fewer = all;
@@ -83,10 +84,10 @@ class Shrinker {
     });
   }
 
-  /// Towards the neutral value; what is left of an interval that holds a boundary is halved.
+  /// Moves a parameter to its neutral value if the check still fails there, and otherwise towards it by bisection.
   void neutralize(size_t parameter) {
     const std::optional<double> neutral = search_.neutral[parameter];
-    if (!neutral || is_left_out(search_.sweep.parameters[parameter].path)) return;
+    if (!neutral || is_removed(search_.sweep.parameters[parameter].path)) return;
     double fails = parse_number(best_.values[parameter], false).member, holds = *neutral;
     if (fails == holds || try_value(parameter, holds)) return;
     constexpr int kHalvings = 6;
@@ -96,7 +97,7 @@ class Shrinker {
     }
   }
 
-  void cut() {
+  void shorten() {
     constexpr double kAfterS = 1.0;
     Candidate shorter = best_;
     shorter.duration_s = std::ceil(decided_s(shrunk_.record, check_) + kAfterS);
@@ -121,7 +122,7 @@ class Shrinker {
     return candidate.values[parameter] != best_.values[parameter] && still_fails(candidate);
   }
 
-  bool is_left_out(const std::string& path) const {
+  bool is_removed(const std::string& path) const {
     for (size_t k = 0; k < items_.size(); ++k) {
       if (path.starts_with(items_[k])) return !std::ranges::binary_search(best_.kept, k);
     }
@@ -146,9 +147,10 @@ class Shrinker {
     return scenario;
   }
 
-  /// Flies a candidate; one in which the check still fails becomes the best. One that the scenario refuses does not.
+  /// Flies a candidate and returns whether the check still fails; if so, the candidate becomes the best one. An invalid
+  /// scenario does not count as failing.
   bool still_fails(const Candidate& candidate) {
-    if (shrunk_.stopped || shrunk_.trials >= most_trials_) return false;
+    if (shrunk_.stopped || shrunk_.trials >= max_trials_) return false;
     try {
       const Scenario scenario = scenario_of(candidate);
       const std::string name = fmt::format("{:03}", shrunk_.trials);
@@ -174,7 +176,7 @@ class Shrinker {
   const std::string check_;
   const uint64_t seed_;
   const std::filesystem::path folder_;
-  const size_t most_trials_;
+  const size_t max_trials_;
   const FlyOne& fly_;
   std::vector<std::string> items_;
   Candidate best_;
@@ -184,8 +186,8 @@ class Shrinker {
 }  // namespace
 
 Shrunk shrink(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,
-              const std::filesystem::path& folder, size_t most_trials, const FlyOne& fly) {
-  return Shrinker(search, failure, record, folder, most_trials, fly).run();
+              const std::filesystem::path& folder, size_t max_trials, const FlyOne& fly) {
+  return Shrinker(search, failure, record, folder, max_trials, fly).run();
 }
 
 Order file_order(const std::filesystem::path& file, const std::string& id) {

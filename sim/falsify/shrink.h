@@ -9,26 +9,27 @@
 
 namespace hedgehop::sim {
 
-/// Flies one order; nothing when it was interrupted. An earlier result of the same order is reused.
+/// Flies one order; returns nullopt if interrupted. An earlier result of the same order is reused.
 using FlyOne = std::function<std::optional<FlightRecord>(const Order& order)>;
 
-/// The least of a failing flight that still fails.
+/// The simplest variant of a failing flight that still fails.
 struct Shrunk {
   Scenario scenario;
-  FlightRecord record;                 ///< of its flight
-  size_t trials = 0;                   ///< flights that it took
+  FlightRecord record;                 ///< of the flight
+  size_t trials = 0;                   ///< flights of the shrinking
   size_t items_before = 0, items = 0;  ///< boxes, movers and failures
-  bool stopped = false;                ///< by `fly`, before it was done
+  bool stopped = false;                ///< by `fly`, before shrinking ended
 };
 
-/// Shrinks a flight in which a check fails to one in which the same check fails: leaves out boxes, movers and failures
-/// (ddmin); moves each unknown towards its neutral value, by halves; ends the flight a second after the failure; rounds
-/// the unknowns to the fewest decimals. Failing is not monotone in a number, so that nothing is claimed of a boundary.
-/// @param failure  of the search's result. @param folder  for the trials' scenarios. @param most_trials  flights.
+/// Shrinks a failing flight to a simpler one in which the same check fails. It removes boxes, movers and failures
+/// (ddmin), moves each unknown towards its neutral value by bisection, ends the flight one second after the failure and
+/// rounds the unknowns to as few decimals as possible. Failing need not be monotone in a parameter, so the result is no
+/// statement about a boundary.
+/// @param failure  of the search's result. @param folder  for the trials' scenarios. @param max_trials  flights.
 Shrunk shrink(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,
-              const std::filesystem::path& folder, size_t most_trials, const FlyOne& fly);
+              const std::filesystem::path& folder, size_t max_trials, const FlyOne& fly);
 
-/// An order for a scenario's file. Throws InputError for what the scenario refuses.
+/// Returns the order of a scenario file. Throws InputError if the scenario is invalid.
 Order file_order(const std::filesystem::path& file, const std::string& id);
 
 }  // namespace hedgehop::sim

@@ -10,9 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kLeastFailure = 1e-6;  // a check that fails at its very limit, or without a number, fails
-constexpr double kCrash = -1.0;         // a collision is about 0
-constexpr double kFar = 50.0;           // from failing: nothing within reach, or nothing to check
+constexpr double kMinFailure = 1e-6;  // keeps the robustness of a check that fails exactly at its limit below 0
+constexpr double kCrash = -1.0;       // below a collision, which is about 0
+constexpr double kClearPass = 50.0;   // no obstacle within range, or no checks
 
 double scale_of(const std::string& unit) {
   if (unit == "s") return 10.0;
@@ -30,15 +30,15 @@ double check_robustness(const Json& check) {
     if (check.value("must", "<=") == "<=") margin = -margin;
     margin /= scale_of(check.value("unit", ""));
   }
-  if (std::isnan(margin)) return passed ? kFar : kCrash;  // such as no obstacle within reach
-  return passed ? std::max(margin, 0.0) : std::min(margin, -kLeastFailure);
+  if (std::isnan(margin)) return passed ? kClearPass : kCrash;  // such as a clearance with no obstacle within range
+  return passed ? std::max(margin, 0.0) : std::min(margin, -kMinFailure);
 }
 
 WeakestCheck weakest_check(const FlightRecord& record, const std::vector<std::string>& names) {
   const bool refused = !record.order.fault.empty() || record.cause.starts_with("exit status 2");
-  if (refused) return {"", kFar};
+  if (refused) return {"", kClearPass};
   if (record.status != FlightRecord::Status::flown || record.result.at("outcome") == "fault") return {"flight", kCrash};
-  WeakestCheck weakest{"", kFar};
+  WeakestCheck weakest{"", kClearPass};
   for (const Json& check : record.result.at("checks")) {
     const std::string name = check.at("name").get<std::string>();
     if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;

@@ -52,7 +52,7 @@ TEST(AnytimeLimit, MatchesReferenceValuesAndMirrors) {
   EXPECT_EQ(anytime_lower_limit({0, 7}, 0.95), 0.0);
 }
 
-/// A limit is shown exactly when the one-sided upper limit is no greater.
+/// A limit is shown if and only if the one-sided upper limit does not exceed it.
 TEST(AnytimeLimit, AgreesWithTheTest) {
   for (int64_t n : {20, 66, 131, 500}) {
     for (int64_t k = 0; k <= n / 4; k += 1 + n / 50) {
@@ -64,7 +64,7 @@ TEST(AnytimeLimit, AgreesWithTheTest) {
   }
 }
 
-/// Trials that show a limit with so many events.
+/// Numbers of trials that show a limit, by number of events.
 TEST(RateEvidence, DecidesAfterTheTabulatedNumberOfTrials) {
   const std::vector<int64_t> events{0, 1, 2, 3, 5, 10};
   const auto trials_needed = [](int64_t k, double limit) {
@@ -79,11 +79,11 @@ TEST(RateEvidence, DecidesAfterTheTabulatedNumberOfTrials) {
   }
 }
 
-/// Probability that `decides` holds after some trial up to `most`, by the exact recursion over (n, k).
-double probability_of_ever(double rate, int64_t most, const std::function<bool(Count)>& decides) {
+/// Returns the probability that `decides` holds after any of `max_trials` trials, by the exact recursion over (n, k).
+double probability_of_ever(double rate, int64_t max_trials, const std::function<bool(Count)>& decides) {
   std::vector<double> undecided{1.0};  // [k]
   double ever = 0.0;
-  for (int64_t n = 1; n <= most; ++n) {
+  for (int64_t n = 1; n <= max_trials; ++n) {
     std::vector<double> next(static_cast<size_t>(n) + 1, 0.0);
     for (size_t k = 0; k < undecided.size(); ++k) {
       next[k] += undecided[k] * (1.0 - rate);
@@ -92,7 +92,7 @@ double probability_of_ever(double rate, int64_t most, const std::function<bool(C
     for (int64_t k = 0; k <= n; ++k) {
       double& mass = next[static_cast<size_t>(k)];
       if (mass < 1e-15) {
-        mass = 0.0;  // what is dropped stays below 1e-11 in all
+        mass = 0.0;  // the total dropped mass stays below 1e-11
       } else if (decides({k, n})) {
         ever += mass;
         mass = 0.0;
@@ -103,8 +103,8 @@ double probability_of_ever(double rate, int64_t most, const std::function<bool(C
   return ever;
 }
 
-/// A rate that stands exactly at the limit is where errors are most likely; each must stay below 0.05.
-TEST(RateEvidence, ErrsAsOftenAsTheExactRecursionSaysAndWilsonWatchedErrsMore) {
+/// Errors are most likely if the rate equals the limit; each error rate must stay below 0.05.
+TEST(RateEvidence, ErrorRateMatchesTheExactRecursionAndIsBelowThatOfARepeatedWilsonTest) {
   constexpr double kLimit = 0.05, kToleranceOfReference = 2e-4;
   constexpr int64_t kMost = 4000;
   const double decided = std::log(20.0);
@@ -112,7 +112,7 @@ TEST(RateEvidence, ErrsAsOftenAsTheExactRecursionSaysAndWilsonWatchedErrsMore) {
               0.0474, kToleranceOfReference);
   EXPECT_NEAR(probability_of_ever(kLimit, kMost, [&](Count c) { return ln_evidence_above(c, kLimit) >= decided; }),
               0.0214, kToleranceOfReference);
-  // The end of Wilson's interval, wrongly looked at after each trial: nearly four times its nominal error.
+  // Testing a limit of Wilson's interval after each trial is wrong: its error is nearly four times the nominal one.
   const double z = normal_quantile(0.975);
   const auto wilson_high = [z](Count c) {
     const auto n = static_cast<double>(c.trials);
@@ -122,8 +122,8 @@ TEST(RateEvidence, ErrsAsOftenAsTheExactRecursionSaysAndWilsonWatchedErrsMore) {
   EXPECT_NEAR(probability_of_ever(kLimit, kMost, [&](Count c) { return wilson_high(c) < kLimit; }), 0.19, 0.01);
 }
 
-/// Over all times together the interval holds the rate with its confidence; Wilson's, watched, does not.
-TEST(AnytimeInterval, HoldsTheRateAtAllTimesWhereWilsonDoesNot) {
+/// The interval covers the rate at all times together with its confidence; Wilson's interval does not.
+TEST(AnytimeInterval, CoversTheRateAtAllTimesUnlikeWilsonsInterval) {
   for (const auto& [rate, misses] : {std::pair{0.5, 0.031}, std::pair{0.01, 0.015}}) {
     const auto outside = [rate = rate](Interval interval) { return rate < interval.low || rate > interval.high; };
     const double anytime = probability_of_ever(rate, 100, [&](Count c) { return outside(anytime_interval(c, 0.95)); });

@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
-/// A folder with a second system, of which no flight passes.
+/// A folder with a second system whose flights all fail.
 class TwoSystems : public CampaignFolder {
  public:
   TwoSystems() {
@@ -22,7 +22,7 @@ TEST(Compare, ShowsOrRefutesThatTheCandidateIsBetter) {
   const std::string common = " --seeds 101:108 --until 'success: better' --junit j.xml -j 2 --out ";
   const CommandEnd better = folder.hedgehop("compare other.yaml tiny.yaml" + common + "out");
   EXPECT_EQ(better.status, 0) << better.err;
-  // Five pairs that differ, all one way, decide at 95 %.
+  // Five discordant pairs in the same direction decide at 95 %.
   EXPECT_EQ(folder.found().at("n"), 5);
   EXPECT_EQ(folder.found().at("candidate_better"), 5);
   EXPECT_EQ(folder.found().at("stopped_at"), 105);
@@ -49,7 +49,7 @@ TEST(Compare, SameAnswerForAnyNumberOfWorkersAndResumed) {
   EXPECT_EQ(lasting_columns(folder.read("one/batch.csv")), lasting_columns(folder.read("six/batch.csv")));
 }
 
-/// Whoever's flight is missing, it is no evidence for the candidate.
+/// A missing flight of either system is no evidence for the candidate.
 TEST(Compare, FlightsWithoutAResultCountAgainstTheCandidate) {
   const TwoSystems folder;
   const std::string worker = folder.worker("case \"$*\" in *other.yaml*) exit 3 ;; esac; fly \"$@\"");
@@ -59,7 +59,7 @@ TEST(Compare, FlightsWithoutAResultCountAgainstTheCandidate) {
   EXPECT_EQ(folder.found().at("candidate_better"), 0);
 }
 
-TEST(Compare, TakesTwoDifferentScenarios) {
+TEST(Compare, RequiresTwoDifferentScenarios) {
   const TwoSystems folder;
   const auto refused = [&](const std::string& files) {
     const CommandEnd end = folder.hedgehop("compare " + files + " --seeds 1:2 --until 'collision: better' --out out");
@@ -67,7 +67,7 @@ TEST(Compare, TakesTwoDifferentScenarios) {
     return end.status == 2 ? end.err : "accepted";
   };
   EXPECT_THAT(refused("tiny.yaml tiny.yaml"), HasSubstr("are to be two scenarios"));
-  EXPECT_THAT(refused("tiny.yaml nowhere.yaml"), HasSubstr("nowhere.yaml"));
+  EXPECT_THAT(refused("tiny.yaml missing.yaml"), HasSubstr("missing.yaml"));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ PairTally counted(const PairClaim& claim, const std::vector<std::array<double, 2
   return tally;
 }
 
-/// Pairs in which the base fails alone, the candidate alone, and neither.
+/// A tally of pairs in which only the base fails, only the candidate fails, or neither fails.
 PairTally of_counts(const std::string& claim, int base_fails, int candidate_fails, int neither) {
   std::vector<std::array<double, 2>> pairs(static_cast<size_t>(neither), {0.0, 0.0});
   pairs.insert(pairs.end(), static_cast<size_t>(base_fails), {1.0, 0.0});
@@ -30,7 +30,7 @@ PairTally of_counts(const std::string& claim, int base_fails, int candidate_fail
   return counted(parse_pair_claim(claim, {}), pairs);
 }
 
-/// Computed by numpy.
+/// The reference values were computed with numpy.
 TEST(MeanBets, MatchReferenceValues) {
   MeanBets at_04(0.4), at_08(0.8);
   for (const double x : {0.2, 0.9, 0.5, 0.7}) {
@@ -79,8 +79,8 @@ TEST(PairTally, MatchesReferenceEvidenceOfNoLoss) {
   EXPECT_EQ(none.standing(), Standing::shown);
 }
 
-/// Of equal systems, one that is declared better at any of 400 looks is a false alarm; 5 % may be.
-TEST(PairTally, SeldomPrefersOneOfTwoEqualSystems) {
+/// For equal systems, any decision during 400 looks is a false alarm; up to 5 % are allowed.
+TEST(PairTally, RarelyPrefersOneOfTwoEqualSystems) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> clearance(1.5, 1.0);
   constexpr int kRuns = 300, kPairs = 400;
@@ -94,13 +94,13 @@ TEST(PairTally, SeldomPrefersOneOfTwoEqualSystems) {
     better += tally.standing() == Standing::shown ? 1 : 0;
     worse += tally.standing() == Standing::refuted ? 1 : 0;
   }
-  constexpr int kMost = 25;  // 15 and 2.7 standard deviations
-  EXPECT_LE(better, kMost);
-  EXPECT_LE(worse, kMost);
+  constexpr int kMaxPreferred = 25;  // 15 and 2.7 standard deviations
+  EXPECT_LE(better, kMaxPreferred);
+  EXPECT_LE(worse, kMaxPreferred);
   EXPECT_GT(better + worse, 0);
 }
 
-/// What is not known counts against the candidate, whoever's flight it was.
+/// An unknown result of either system counts against the candidate.
 TEST(PairTally, CountsFlightsWithoutResultAgainstTheCandidate) {
   for (const auto& pair : {std::array{std::nan(""), 1.0}, std::array{1.0, std::nan("")}}) {
     PairTally graded(parse_pair_claim("min_clearance_m: better", 3.0), kConfidence);
@@ -118,7 +118,7 @@ TEST(PairTally, ClipsClearancesAtTheRange) {
   EXPECT_NEAR(tally.value(), (2.0 + 0.5) / 2.0, 1e-12);
 }
 
-TEST(PairClaim, RefusesWhatItCannotDecide) {
+TEST(PairClaim, RejectsClaimsThatCannotBeDecided) {
   const auto message = [](const std::string& text, std::optional<double> range_m) -> std::string {
     try {
       parse_pair_claim(text, range_m);

@@ -21,7 +21,7 @@ class PlanFolder : public CampaignFolder {
           "tuned_on: {seeds: 1:100, settings_tried: 14}\n");
   }
   Json plan(const std::string& out = "out") const { return json(out + "/batch.json").at("conduct").at("plan"); }
-  /// What the page of `out` knows of the plan.
+  /// Returns the state of the plan on the page of `out`.
   std::string on_page() const {
     EXPECT_EQ(hedgehop("report out").status, 0);
     const std::string page = read("out/report.html");
@@ -45,7 +45,7 @@ TEST(Plan, IsFlownAsRegistered) {
   EXPECT_EQ(folder.json("out/batch.json").at("sequential").at(0).at("verdict"), "shown");
 }
 
-TEST(Plan, ChangedAfterTheFlightsShowsOnThePage) {
+TEST(Plan, AChangeAfterTheFlightsIsShownOnThePage) {
   const PlanFolder folder;
   ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);
   EXPECT_EQ(folder.on_page(), "same");
@@ -57,7 +57,7 @@ TEST(Plan, ChangedAfterTheFlightsShowsOnThePage) {
   EXPECT_EQ(folder.on_page(), "gone");
 }
 
-TEST(PlanInBrowser, StatesWhatTheRateRestsOn) {
+TEST(PlanInBrowser, StatesTheSeedsAndThePlanOfTheRate) {
   HEDGEHOP_NEEDS_BROWSER();
   const PlanFolder folder;
   ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);
@@ -78,7 +78,7 @@ TEST(PlanInBrowser, StatesWhatTheRateRestsOn) {
   EXPECT_THAT(facts(), HasSubstr("as registeredThe plan was changed after the flights."));
 }
 
-/// A repetition of what failed is still the plan's; one that would undo a stop is refused.
+/// Repeating failed flights is within the plan; a repetition that would undo a stop is rejected.
 TEST(Plan, StaysWithTheFlightsThatAreFlownAgain) {
   const PlanFolder folder;
   std::string text = folder.read("plan.yaml");
@@ -108,7 +108,7 @@ TEST(Plan, ListsEveryDeviation) {
                           "flights over 90 s of wall time were ended", HasSubstr(", registered 0123456789abcdef")));
 }
 
-TEST(Plan, BadPlansAreToldWithTheirPlace) {
+TEST(Plan, RejectsBadPlansWithTheirPlace) {
   const PlanFolder folder;
   std::string text = folder.read("plan.yaml");
   text.replace(text.find("101:110"), 7, "100:110");

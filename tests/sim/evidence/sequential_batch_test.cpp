@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// The fields that may differ between two runs of the same input, taken out.
+/// Returns the JSON without the fields that may differ between two runs of the same input.
 std::string lasting(Json json) {
   const auto strip = [](const auto& self, Json& value) -> void {
     if (value.is_object()) {
@@ -65,9 +65,9 @@ TEST(BatchUntil, RefutesAndFailsOrStaysUndecided) {
   EXPECT_THAT(junit_cases(folder, "j.xml"), HasSubstr("failure undecided"));
 }
 
-TEST(BatchUntil, CountsAFigureAndKnowsAWidth) {
+TEST(BatchUntil, CountsAFigureAndBoundsAWidth) {
   const CampaignFolder folder;
-  // Its clearance is about 0.7 m.
+  // The minimum clearance is about 0.7 m.
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:9 --until 'rate(min_clearance_m < 0.5) < 0.5' --out a").status,
             0);
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:9 --until 'rate(min_clearance_m > 0.5) < 0.5' --out b").status,
@@ -79,7 +79,7 @@ TEST(BatchUntil, CountsAFigureAndKnowsAWidth) {
   EXPECT_EQ(found.at("width").get<double>(), high - low);
 }
 
-/// Flights that fail end first: counted as they end, the first ones would refute the claim.
+/// Failing flights end first. If flights counted in the order of their ends, the first ones would refute the claim.
 TEST(BatchUntil, SameAnswerForAnyNumberOfWorkersAfterAKillAndResumed) {
   const CampaignFolder folder;
   const std::string worker = folder.worker(
@@ -107,7 +107,7 @@ TEST(BatchUntil, SameAnswerForAnyNumberOfWorkersAfterAKillAndResumed) {
   }
 }
 
-TEST(BatchUntil, InterruptedCountsOnlyFlightsWithoutAGapBeforeThem) {
+TEST(BatchUntil, AfterAnInterruptionCountsFlightsUpToTheFirstGap) {
   const CampaignFolder folder;
   const std::string worker = folder.worker(
       "[ $seed = 2 ] && exec sleep 1000; [ $seed = 5 ] && kill -INT $PPID && exec sleep 1000; fly \"$@\"");
@@ -133,10 +133,11 @@ TEST(BatchUntil, EachGroupStopsAtItsOwnSeed) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found.at(0).at("verdict"), "shown");
   EXPECT_EQ(found.at(1).at("verdict"), "refuted");
-  EXPECT_EQ(found.at(0).at("n"), found.at(1).at("n"));  // all or none, at one half: the same evidence
+  EXPECT_EQ(found.at(0).at("n"),
+            found.at(1).at("n"));  // at a limit of one half, all events and no events are equal evidence
 }
 
-TEST(BatchUntil, BadRulesAreToldInOneLineBeforeFlying) {
+TEST(BatchUntil, RejectsBadRulesInOneLineBeforeAnyFlight) {
   const CampaignFolder folder;
   struct Row {
     std::string options, message;

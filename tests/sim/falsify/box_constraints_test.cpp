@@ -18,7 +18,7 @@ BoxConfig random_box(std::mt19937& random) {
   return box;
 }
 
-/// Another way to see it: a point of one that lies in the other, on a fine grid.
+/// Independent oracle: whether a point of a fine grid lies in both boxes.
 bool share_a_point(const BoxConfig& a, const BoxConfig& b) {
   constexpr int kSteps = 120;
   const auto corners = a.corners_NE_m();
@@ -34,7 +34,7 @@ bool share_a_point(const BoxConfig& a, const BoxConfig& b) {
 
 TEST(BoxConstraints, OverlapAgreesWithPointsInBoth) {
   std::mt19937 random(1);
-  constexpr double kGridM = 0.2;  // boxes that share less may share no point of the grid
+  constexpr double kGridM = 0.2;  // smaller overlaps may contain no grid point
   int both = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const BoxConfig a = random_box(random), b = random_box(random);
@@ -46,13 +46,13 @@ TEST(BoxConstraints, OverlapAgreesWithPointsInBoth) {
   EXPECT_GT(both, 30);
 }
 
-TEST(BoxConstraints, DistanceOfATurnedBoxIsThatOfItsDiagonal) {
+TEST(BoxConstraints, DistanceToARotatedBoxIsMeasuredToItsCornersAndSides) {
   const BoxConfig box{.length_m = 2.0, .width_m = 2.0, .heading_rad = 0.25 * std::numbers::pi};
   EXPECT_NEAR(plan_distance_m(box, {5.0, 0.0}), 5.0 - std::sqrt(2.0), 1e-12);        // to its corner
   EXPECT_NEAR(plan_distance_m(box, {3.0, 3.0}), 3.0 * std::sqrt(2.0) - 1.0, 1e-12);  // to its side
 }
 
-/// A field 60 m wide with a goal to the east, and two boxes in a band across the way.
+/// A field 60 m wide with a goal to the east, and two boxes in a band between start and goal.
 FalsifySearch search() {
   FalsifySearch search;
   search.scenario.start = {.north_m = 0.0, .east_m = 0.0};
@@ -63,19 +63,19 @@ FalsifySearch search() {
   return search;
 }
 
-TEST(BoxConstraints, ViolationGrowsWithWhatLiesOutsideOrInAnother) {
+TEST(BoxConstraints, ViolationSumsProtrusionsAndOverlaps) {
   const BoxConfig inside{.north_m = 0.0, .east_m = 20.0, .length_m = 10.0, .width_m = 4.0};
   BoxConfig out = inside;
-  out.north_m = 27.0;  // 2 m beyond, at two corners
+  out.north_m = 27.0;  // two corners protrude by 2 m
   EXPECT_EQ(violation(search(), {inside}), 0.0);
   EXPECT_NEAR(violation(search(), {inside, out}), 4.0, 1e-9);
   BoxConfig near = inside;
-  near.east_m = 23.0;  // of 4 m width: 1 m in each other
+  near.east_m = 23.0;  // boxes 4 m wide: an overlap of 1 m
   EXPECT_NEAR(violation(search(), {inside, near}), 1.0, 1e-9);
 }
 
-/// A box round the goal leaves no way to it.
-TEST(BoxConstraints, WayMustLeadToTheGoal) {
+/// A box around the goal blocks every path to it.
+TEST(BoxConstraints, APathToTheGoalMustExist) {
   FalsifySearch at_goal = search();
   at_goal.scenario.goal->east_m = 20.0;
   EXPECT_EQ(violation(at_goal, {{.north_m = 0.0, .east_m = 20.0, .length_m = 8.0, .width_m = 8.0}}), 1.0);

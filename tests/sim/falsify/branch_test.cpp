@@ -20,7 +20,7 @@ class Branch : public ::testing::Test {
   CampaignFolder folder;
 };
 
-TEST_F(Branch, FliesOnWithOtherSettingsFromTheMomentOn) {
+TEST_F(Branch, ChangesTheFlightOnlyAfterTheGivenTime) {
   const CommandEnd end = folder.hedgehop("branch run --at 1.5 --set avoidance.speed=0.3 --out out");
   ASSERT_LT(end.status, 2) << end.err;
   EXPECT_THAT(end.out, HasSubstr("equal up to 1.5 s, bit for bit"));
@@ -30,19 +30,19 @@ TEST_F(Branch, FliesOnWithOtherSettingsFromTheMomentOn) {
   const auto a = base.numbers("north_m"), b = branch.numbers("north_m");
   EXPECT_EQ(a.at(150), b.at(150));
   EXPECT_GT(a.back(), b.back());
-  // A second branch stands beside the first, and what was flown is not flown again.
+  // A second branch is added to the first, and existing flights are reused.
   ASSERT_LT(folder.hedgehop("branch run --at 2 --set avoidance.speed=0.3 --out out").status, 2);
   EXPECT_EQ(CsvTable(folder.path() / "out/batch.csv").rows(), 3u);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/report.html"));
 }
 
-TEST_F(Branch, WithoutAChangeItIsTheSameFlight) {
+TEST_F(Branch, WithoutAChangeTheBranchEqualsTheFlight) {
   ASSERT_LT(folder.hedgehop("branch run --at 1.5 --out out").status, 2);
   EXPECT_EQ(hash("at-1.5"), hash("unbroken"));
   EXPECT_EQ(hash("unbroken"), folder.json("run/result.json")["trajectory_hash"].get<std::string>());
 }
 
-TEST_F(Branch, WhatWouldHaveChangedTheFlightBeforeIsRefused) {
+TEST_F(Branch, RejectsChangesThatAffectEarlierTimes) {
   const auto fault = [&](const std::string& arguments) {
     const CommandEnd end = folder.hedgehop("branch run --out none " + arguments);
     EXPECT_EQ(end.status, 2) << arguments;

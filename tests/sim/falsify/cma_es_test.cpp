@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 namespace {
 
 /// The table of the specification, computed by another program.
-TEST(CmaEs, ParametersOfTenUnknownsAreThePublishedOnes) {
+TEST(CmaEs, DefaultParametersForTenUnknownsMatchTheTable) {
   const CmaEsParameters p(10);
   constexpr double kPrinted = 5e-7;
   EXPECT_EQ(p.population, 10u);
@@ -52,7 +52,7 @@ double median_evaluations(const Function& function) {
 }
 
 /// A second implementation took 1410 to 1580, and 5460 to 6510.
-TEST(CmaEs, EvaluationsAreThoseOfAnotherImplementation) {
+TEST(CmaEs, NumberOfEvaluationsMatchesAnIndependentImplementation) {
   EXPECT_NEAR(median_evaluations([](const Eigen::VectorXd& x) { return x.squaredNorm(); }), 1495.0, 0.15 * 1495.0);
   const auto ellipsoid = [](const Eigen::VectorXd& x) {
     double sum = 0.0;
@@ -65,7 +65,7 @@ TEST(CmaEs, EvaluationsAreThoseOfAnotherImplementation) {
   EXPECT_NEAR(median_evaluations(ellipsoid), 5985.0, 0.15 * 5985.0);
 }
 
-TEST(CmaEs, EqualSeedsGiveEqualPointsAndOthersDoNot) {
+TEST(CmaEs, OnlyEqualSeedsGiveEqualPoints) {
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(3, 0.5);
   EXPECT_EQ(CmaEs(start, 0.2, 7).draw(), CmaEs(start, 0.2, 7).draw());
   EXPECT_NE(CmaEs(start, 0.2, 7).draw(), CmaEs(start, 0.2, 8).draw());

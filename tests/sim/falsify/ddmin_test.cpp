@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Trials until only the needed ones of eight items are left.
+/// Returns the number of trials that reduce eight items to the required ones.
 size_t trials(const Subset& needed) {
   size_t count = 0;
   const Subset left = ddmin(8, [&](const Subset& items) {
@@ -19,20 +19,20 @@ size_t trials(const Subset& needed) {
   return count;
 }
 
-/// As counted by another implementation.
-TEST(Ddmin, TrialsOfEightItemsAreThoseOfAnotherImplementation) {
+/// The reference values were counted with a second implementation.
+TEST(Ddmin, NumberOfTrialsMatchesAnIndependentImplementation) {
   EXPECT_EQ(trials({3}), 6u);
   EXPECT_EQ(trials({2, 7}), 15u);
   EXPECT_EQ(trials({1, 4, 6}), 26u);
   EXPECT_EQ(trials({0, 1, 2, 3, 4, 5, 6, 7}), 26u);
 }
 
-TEST(Ddmin, NothingIsKeptWhereNothingIsNeeded) {
+TEST(Ddmin, RemovesEveryItemIfTheEmptySetFails) {
   EXPECT_EQ(trials({}), 4u);
   EXPECT_THAT(ddmin(0, [](const Subset&) { return true; }), ::testing::IsEmpty());
 }
 
-/// Also where failing is not monotone: each result fails, and without any one of its items it does not.
+/// Each result fails, and passes without any one of its items. This also holds if failing is not monotone.
 TEST(Ddmin, ResultIsOneMinimal) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 200; ++trial) {

@@ -11,7 +11,7 @@ using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Lt;
 
-/// A vehicle that flies straight north, without a camera, and boxes that may stand in its way.
+/// A vehicle without a camera that flies straight north, and boxes that may block its path.
 class Falsify : public ::testing::Test {
  protected:
   Falsify() {
@@ -38,7 +38,7 @@ class Falsify : public ::testing::Test {
   CampaignFolder folder;
 };
 
-TEST_F(Falsify, FindsConfirmsShrinksAndKeepsFailures) {
+TEST_F(Falsify, FindsConfirmsShrinksAndStoresFailures) {
   const CommandEnd end = folder.hedgehop("falsify search.yaml --out out -j 2");
   ASSERT_EQ(end.status, 1) << end.out << end.err;
   const auto json = folder.json("out/falsify.json");
@@ -47,15 +47,15 @@ TEST_F(Falsify, FindsConfirmsShrinksAndKeepsFailures) {
   for (const auto& one : json["counterexamples"]) {
     EXPECT_TRUE(one["repeats"].get<bool>());
     EXPECT_TRUE(one["confirmed"].get<bool>());
-    EXPECT_EQ(one["items"], 1);  // one box in the way is enough
+    EXPECT_EQ(one["items"], 1);  // one box on the path is enough
     EXPECT_EQ(one["items_before"], 2);
     EXPECT_LE(one["shrinking_flights"].get<int>(), 60);
-    // As a test of its own it fails, with the robustness and the path that its origin states.
+    // Flown as a test, the stored scenario fails with the trajectory that its origin states.
     const std::string file = "out/" + one["file"].get<std::string>();
     EXPECT_EQ(folder.hedgehop("run " + file + " --out kept").status, 1);
     const auto kept = folder.json("kept/result.json");
     EXPECT_EQ(kept["trajectory_hash"], one["trajectory_hash"]);
-    const auto hash = one["trajectory_hash"].get<std::string>();  // in quotes where it could be read as a number
+    const auto hash = one["trajectory_hash"].get<std::string>();  // quoted if it could be read as a number
     EXPECT_THAT(folder.read(file),
                 AnyOf(HasSubstr("trajectory_hash: " + hash), HasSubstr("trajectory_hash: \"" + hash + "\"")));
     EXPECT_THAT(folder.read(file), HasSubstr("  speed: 0\n"));  // wind is not needed
@@ -76,7 +76,7 @@ TEST_F(Falsify, TableIsTheSameForAnyNumberOfWorkersAndAfterAKill) {
   EXPECT_EQ(lasting_columns(folder.read("torn/falsify.csv")), whole);
 }
 
-TEST_F(Falsify, NoFailureIsNoProofAndExitsWithZero) {
+TEST_F(Falsify, WithoutAFailureExitsWithZeroAndClaimsNoProof) {
   const CommandEnd end = folder.hedgehop(
       "falsify search.yaml --out out --set 'boxes.east=[8,14]' --set parameters=[] --set design.budget=6");
   EXPECT_EQ(end.status, 0) << end.err;
@@ -86,7 +86,7 @@ TEST_F(Falsify, NoFailureIsNoProofAndExitsWithZero) {
   EXPECT_THAT(table.numbers("robustness"), Each(::testing::Ge(0.0)));
 }
 
-TEST_F(Falsify, EveryMethodKeepsItsBudgetAndFindsTheSameAgain) {
+TEST_F(Falsify, EveryMethodKeepsItsBudgetAndIsRepeatable) {
   for (const std::string method : {"random", "direct"}) {
     const std::string set = " --set design.method=" + method +
                             " --set 'constraints=[]' --set 'boxes={count: 1, north: [10, 10], east: [-14, 14]}'";
@@ -99,7 +99,7 @@ TEST_F(Falsify, EveryMethodKeepsItsBudgetAndFindsTheSameAgain) {
   }
 }
 
-TEST_F(Falsify, BadInputIsRefusedInOneLineBeforeAnyFlight) {
+TEST_F(Falsify, RejectsBadInputInOneLineBeforeAnyFlight) {
   const auto fault = [&](const std::string& set) {
     const CommandEnd end = folder.hedgehop("falsify search.yaml --out none --set '" + set + "'");
     EXPECT_EQ(end.status, 2) << set;
@@ -108,18 +108,18 @@ TEST_F(Falsify, BadInputIsRefusedInOneLineBeforeAnyFlight) {
     return end.err;
   };
   EXPECT_THAT(fault("design.budget=0"), HasSubstr("'design.budget': must be >= 1, got 0"));
-  EXPECT_THAT(fault("seeds=1:100"), HasSubstr("60 flights are less than the 100 of one point"));
+  EXPECT_THAT(fault("seeds=1:100"), HasSubstr("60 flights are fewer than the 100 seeds of one point"));
   EXPECT_THAT(fault("robustness=[keep_clear]"), HasSubstr("has no check 'keep_clear'; did you mean 'keeps_clear'?"));
-  EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': its lower end must stand first"));
+  EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': the lower end must come first"));
   EXPECT_THAT(fault("parameters=[{path: wind.speed, from: 3, to: 1}]"), HasSubstr("'from' must be less than 'to'"));
   EXPECT_THAT(fault("parameters=[{path: wind.sped, from: 0, to: 1}]"), HasSubstr("did you mean 'speed'?"));
-  EXPECT_THAT(fault("design.method=direct"), HasSubstr("'direct' is for up to 5 unknowns, here are 11"));
+  EXPECT_THAT(fault("design.method=direct"), HasSubstr("'direct' supports up to 5 unknowns; there are 11"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always (clearence > 1)\"]"), HasSubstr("did you mean 'clearance'?"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always[0,20] (clearance > 1)\"]"),
               HasSubstr("looks 20 s ahead, which is longer than the flight (12 s)"));
 }
 
-TEST_F(Falsify, FolderOfAnotherSearchIsRefused) {
+TEST_F(Falsify, RejectsTheFolderOfAnotherSearch) {
   ASSERT_EQ(folder.hedgehop("falsify search.yaml --out out --set design.budget=3 --set boxes.east=[8,14]").status, 0);
   folder.write("search.yaml", search(", seed: 2"));
   const CommandEnd end = folder.hedgehop("falsify search.yaml --out out");

@@ -18,22 +18,22 @@ FlightRecord flown(const Json& checks) {
   return record;
 }
 
-TEST(WeakestCheck, MarginsAreScaledSoThatChecksCompare) {
+TEST(WeakestCheck, ScalesMarginsToMakeChecksComparable) {
   EXPECT_DOUBLE_EQ(check_robustness(check("min_clearance", true, 2.5, 1.0, "m", ">=")), 1.5);
   EXPECT_DOUBLE_EQ(check_robustness(check("max_speed", false, 7.0, 5.0, "m/s", "<=")), -2.0);
   EXPECT_DOUBLE_EQ(check_robustness(check("reached_goal", false, 45.0, 40.0, "s", "<=")), -0.5);
   EXPECT_NEAR(check_robustness(check("max_tilt", true, 20.0, 31.4591559, "deg", "<=")), 2.0, 1e-6);
 }
 
-/// The verdict decides the sign, whatever the number says: at its limit, without one, or where another key failed.
-TEST(WeakestCheck, FailsExactlyWhereTheCheckFails) {
+/// The verdict alone decides the sign: for a value at its limit, for a missing value, and if another key failed.
+TEST(WeakestCheck, IsNegativeIfAndOnlyIfTheCheckFails) {
   EXPECT_LT(check_robustness(check("no_collision", false, 0.0, 0.0, "m", ">")), 0.0);
   EXPECT_LT(check_robustness(check("reached_goal", false, 1.0, 2.0, "m", "<=")), 0.0);
   EXPECT_LT(check_robustness(check("metric", false, nullptr, 2.0, "", "<=")), 0.0);
   EXPECT_GE(check_robustness(check("no_collision", true, nullptr, 0.0, "m", ">")), 10.0);
 }
 
-TEST(WeakestCheck, IsTheLeastOfThoseThatCount) {
+TEST(WeakestCheck, HasTheMinimumRobustnessOfTheSelectedChecks) {
   const FlightRecord record = flown({check("a", true, 3.0, 1.0, "m", ">="), check("b", true, 1.5, 1.0, "m", ">="),
                                      check("c", false, 0.0, 1.0, "m", ">=")});
   EXPECT_EQ(weakest_check(record, {}).name, "c");
@@ -42,7 +42,7 @@ TEST(WeakestCheck, IsTheLeastOfThoseThatCount) {
   EXPECT_EQ(decided_s(record, "b"), 3.5);
 }
 
-TEST(WeakestCheck, CrashFailsAndRefusalDoesNot) {
+TEST(WeakestCheck, ACrashFailsAndAnInvalidScenarioPasses) {
   FlightRecord record{.status = FlightRecord::Status::failed, .cause = "killed by SIGSEGV (Segmentation fault)"};
   EXPECT_EQ(weakest_check(record, {}).name, "flight");
   EXPECT_LT(weakest_check(record, {}).robustness, 0.0);

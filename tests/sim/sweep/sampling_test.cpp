@@ -60,7 +60,7 @@ TEST(Sobol, EverySegmentOfAPowerOfTwoIsANet) {
   }
 }
 
-/// Sobol's property A, which Joe and Kuo's numbers were made to have: 2^s points, one in each of the 2^s orthants.
+/// Sobol's property A, which the numbers of Joe and Kuo satisfy by design: 2^s points, one in each of the 2^s orthants.
 TEST(Sobol, OrthantsOfTheCubeHoldOnePointEach) {
   for (size_t dimensions = 1; dimensions <= kSobolDimensions; ++dimensions) {
     UnitPoints points;
@@ -69,7 +69,7 @@ TEST(Sobol, OrthantsOfTheCubeHoldOnePointEach) {
   }
 }
 
-TEST(Sobol, RefusesDimensionsWithoutDirectionNumbers) {
+TEST(Sobol, RejectsDimensionsWithoutDirectionNumbers) {
   EXPECT_THROW(sobol_point(1, 0), std::invalid_argument);
   EXPECT_THROW(sobol_point(1, kSobolDimensions + 1), std::invalid_argument);
 }

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Runs a command beside a Slurm of its own, two nodes of one core on this machine, and takes it down again:
-#   slurm_cluster.sh FOLDER COMMAND...      exit status 77 when no Slurm can be had, with a line that says why
-# The daemons are children of this script and keep everything in FOLDER: nothing of the system's is touched.
+# Starts a private Slurm cluster (two nodes of one core on this machine), runs a command and stops the cluster:
+#   slurm_cluster.sh FOLDER COMMAND...      exit status 77 if Slurm is unavailable, with a line that states the reason
+# The daemons are children of this script and keep their files in FOLDER. The system's Slurm is not touched.
 set -u
 folder=$(realpath -m "$1"); shift
 for program in munged slurmctld slurmd sbatch; do

@@ -7,10 +7,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Two nodes, three shards; the flight of point 1 and seed 2 dies the first time it is tried.
-TEST(SweepOnSlurm, EqualsTheLocalOneByteForByteThoughAFlightDiesOnce) {
+/// Two nodes, three shards; the flight of point 1 and seed 2 crashes on its first attempt.
+TEST(SweepOnSlurm, EqualsTheLocalSweepByteForByteIfAFlightCrashesOnce) {
   const CampaignFolder folder;
-  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));  // munge wants its socket within reach
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));  // munge requires an accessible socket
   folder.write("sweep.yaml",
                "scenario: tiny.yaml\nseeds: 1:2\n"
                "parameters: [{path: avoidance.speed, from: 0.5, to: 2, count: 3}]\n");

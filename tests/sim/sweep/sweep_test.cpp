@@ -55,8 +55,8 @@ TEST_F(Sweep, SqliteHoldsTheSameTableAsTheCsv) {
   sqlite3_close(database);
 }
 
-/// SIGKILL of the sweep itself, by its own second worker: nothing is written on the way out.
-TEST_F(Sweep, KilledAtAnyMomentItEndsWithTheSameTable) {
+/// A worker kills the sweep with SIGKILL, so the sweep cannot write anything before it ends.
+TEST_F(Sweep, ResumedAfterAKillItWritesTheSameTable) {
   ASSERT_EQ(folder.hedgehop("sweep sweep.yaml --out whole").status, 0);
   const std::string worker = folder.worker(
       "n=1; while ! mkdir flown$n 2>/dev/null; do n=$((n + 1)); done\n"  // no two flights have the same number
@@ -69,13 +69,13 @@ TEST_F(Sweep, KilledAtAnyMomentItEndsWithTheSameTable) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "flown19"));  // 12 and 3 times 2
 }
 
-/// A case for each flight and each of its checks, as of a batch; a worker's death is its own flight's error.
+/// As in a batch, each flight and each of its checks is a test case. The crash of a worker is an error of its flight.
 TEST_F(Sweep, JunitHasACaseForEachFlightAndCheck) {
   const std::string worker =
       folder.worker("case \"$*\" in *000001-seed2*) echo broken >&2; exit 3 ;; esac; fly \"$@\"");
   EXPECT_EQ(folder.hedgehop("sweep sweep.yaml --out out --junit ci/j.xml --program " + worker).status, 1);
   const std::string cases = junit_cases(folder, "ci/j.xml");
-  EXPECT_EQ(std::ranges::count(cases, '\n'), 2 * (12 + 11)) << cases;  // a line more each for its facts
+  EXPECT_EQ(std::ranges::count(cases, '\n'), 2 * (12 + 11)) << cases;  // one more line per flight for its figures
   EXPECT_THAT(cases, HasSubstr("flights/000001-seed2/flight error exit status 3: broken\n"));
   EXPECT_THAT(cases, ContainsRegex("flights/000005-seed1/no_collision\n  0.7[0-9]* m at [0-9.]+ s, must be > 0 m"));
   EXPECT_THAT(cases,
@@ -95,7 +95,7 @@ TEST_F(Sweep, MergedShardsEqualTheWhole) {
   EXPECT_EQ(lasting_columns(folder.read("merged/sweep.csv")), lasting_columns(folder.read("whole/sweep.csv")));
 }
 
-TEST_F(Sweep, BadPathsAreRefusedBeforeAnyFlightWithTheNearestKey) {
+TEST_F(Sweep, RejectsUnknownPathsBeforeAnyFlightWithTheNearestKey) {
   folder.write("bad.yaml",
                "scenario: tiny.yaml\nparameters:\n  - {path: avoidance.sped, values: [1]}\n"
                "  - {path: control_rate, values: [50, 0.5]}\n");
@@ -111,7 +111,7 @@ TEST_F(Sweep, BadPathsAreRefusedBeforeAnyFlightWithTheNearestKey) {
   EXPECT_THAT(folder.hedgehop("sweep bad.yaml --out out").err, HasSubstr("bad.yaml:2:8: seeds '1:3' are not all of"));
 }
 
-/// The speed that brings the vehicle nearest to the goal within a second is the highest allowed.
+/// The maximum allowed speed brings the vehicle closest to the goal within one second.
 TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   folder.write("best.yaml",
                "scenario: tiny.yaml\nseeds: 1:2\nset: [duration=1]\n"
@@ -128,7 +128,7 @@ TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   EXPECT_NEAR(optimum.at("cost").get<double>(), best, 1e-12);
 }
 
-TEST_F(Sweep, OptimizerRefusesAnUnknownColumnAfterItsFirstPoint) {
+TEST_F(Sweep, OptimizerRejectsAnUnknownColumnAfterItsFirstPoint) {
   folder.write("best.yaml",
                "scenario: tiny.yaml\nset: [duration=1]\n"
                "design: {type: optimize, minimize: goal_distance, evaluations: 12}\n"
@@ -150,7 +150,7 @@ TEST_F(Sweep, InterruptedOptimizerKeepsTheTableOfItsPoints) {
   EXPECT_EQ(CsvTable(folder.path() / "out/sweep.csv").rows(), 2u);
 }
 
-TEST_F(Sweep, SlurmScriptFliesOneShardATask) {
+TEST_F(Sweep, SlurmScriptFliesOneShardPerTask) {
   const CommandEnd end = folder.hedgehop("sweep sweep.yaml --out out --on slurm --dry-run --tasks 5 -j 2");
   EXPECT_EQ(end.status, 0);
   EXPECT_THAT(end.out, HasSubstr("#SBATCH --array=1-5\n"));

@@ -6,7 +6,7 @@
 namespace hedgehop::sim {
 namespace {
 
-TEST(FlightTable, MetricsOfWallTimeStandAmongTheTimesByTheirKindNotTheirName) {
+TEST(FlightTable, MetricsOfWallTimeAreAmongTheTimesByKindNotByName) {
   FlightRecord record{.status = FlightRecord::Status::flown};
   record.result = {{"outcome", "reached"},
                    {"metrics", {{"landmarks", 8.0}, {"filter_total", 12.5}, {"delay_ms", 40.0}}},
@@ -26,7 +26,7 @@ TEST(FlightTable, MetricsOfWallTimeStandAmongTheTimesByTheirKindNotTheirName) {
   EXPECT_EQ(table.columns[column("metric.delay_ms")].kind, FigureKind::judged);
 }
 
-TEST(FlightTable, ColumnsThatDifferOnlyInCaseAreBothInTheDatabase) {
+TEST(FlightTable, StoresColumnsThatDifferOnlyInCase) {
   Table table;
   for (const char* name : {"AA", "aa", "Aa", "b"}) table.columns.push_back({.name = name});
   table.rows = {{int64_t{1}, int64_t{2}, int64_t{3}, int64_t{4}}};
