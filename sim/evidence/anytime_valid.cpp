@@ -6,13 +6,13 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr int kHalvings = 200;  // past the last bit
+constexpr int kHalvings = 200;  // more than a double resolves
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// count * ln(rate), 0 of no count.
+/// Returns count * ln(rate); 0 if the count is 0.
 double log_power(int64_t count, double log_rate) { return count == 0 ? 0.0 : static_cast<double>(count) * log_rate; }
 
-/// ln of the Beta(1/2, 1/2) mixture's likelihood over that of the rate p.
+/// Returns ln of the likelihood ratio of the Beta(1/2, 1/2) mixture to the rate p.
 double ln_mixture(Count events, double p) {
   constexpr double kA = 0.5, kB = 0.5;
   const auto n = static_cast<double>(events.trials), k = static_cast<double>(events.successes);
@@ -21,7 +21,7 @@ double ln_mixture(Count events, double p) {
          log_power(events.trials - events.successes, std::log1p(-p));
 }
 
-/// Where `holds` changes from its value at `from` to that at `to`.
+/// Returns the boundary between `from` and `to` at which `holds` changes its value.
 template <class Predicate>
 double boundary(double from, double to, Predicate holds) {
   const bool at_from = holds(from);
@@ -38,15 +38,15 @@ Count complement(Count events) { return {events.trials - events.successes, event
 
 void LogSum::add(double logarithm) {
   if (logarithm == -kInfinity) return;
-  if (logarithm > greatest_) {
-    scaled_sum_ = scaled_sum_ * std::exp(greatest_ - logarithm) + 1.0;
-    greatest_ = logarithm;
+  if (logarithm > max_) {
+    scaled_sum_ = scaled_sum_ * std::exp(max_ - logarithm) + 1.0;
+    max_ = logarithm;
   } else {
-    scaled_sum_ += std::exp(logarithm - greatest_);
+    scaled_sum_ += std::exp(logarithm - max_);
   }
 }
 
-double LogSum::value() const { return scaled_sum_ > 0.0 ? greatest_ + std::log(scaled_sum_) : -kInfinity; }
+double LogSum::value() const { return scaled_sum_ > 0.0 ? max_ + std::log(scaled_sum_) : -kInfinity; }
 
 Interval anytime_interval(Count events, double confidence) {
   if (events.trials == 0) return {0.0, 1.0};
@@ -77,7 +77,7 @@ double anytime_upper_limit(Count events, double confidence) {
   if (events.successes == events.trials) return 1.0;
   const double decided = -std::log1p(-confidence);
   const auto undecided = [&](double limit) { return ln_evidence_below(events, limit) < decided; };
-  // The evidence rises in the limit.
+  // The evidence rises with the limit.
   return boundary(events.rate(), 1.0, [&](double limit) { return limit == events.rate() || undecided(limit); });
 }
 
@@ -106,8 +106,8 @@ Interval anytime_mean_interval(const std::vector<double>& values, double confide
     for (const double x : values) all.add(x);
     return all;
   };
-  // Evidence for a mean above m falls in m, that for one below rises: each end by bisection.
-  constexpr int kMeanHalvings = 40;  // a thousand million millionth
+  // The evidence for a mean above m falls with m, that for a mean below m rises. Bisection finds each end.
+  constexpr int kMeanHalvings = 40;  // resolution 1e-12
   Interval interval{0.0, 1.0};
   double low = 0.0, high = 1.0;
   for (int i = 0; i < kMeanHalvings; ++i) {

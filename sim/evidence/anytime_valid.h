@@ -7,42 +7,45 @@
 
 #include "sim/batch/statistics.h"
 
-/// What may be looked at after every trial: the error stays within 1 - confidence however often and however long one
-/// looks, and whenever one stops. Rates of independent trials, `successes` counting the events.
+/// Anytime-valid statistics, which may be evaluated after every trial. The error probability stays within
+/// 1 - confidence for any number of evaluations and any stopping time. Rates are those of independent trials;
+/// `successes` counts the events.
 namespace hedgehop::sim {
 
-/// Two-sided interval of a rate that holds at all times together: the p at which the mixture of likelihood ratios over
-/// a Beta(1/2, 1/2) prior stays below 1 / (1 - confidence). [0, 1] without trials. @param confidence  in (0, 1).
+/// Returns the two-sided interval of a rate, valid at all times together. It contains each p for which the mixture of
+/// likelihood ratios over a Beta(1/2, 1/2) prior stays below 1 / (1 - confidence). [0, 1] without trials.
+/// @param confidence  in (0, 1).
 /// Source: [HowardEtAl2021] sec. 3.2, the beta-binomial mixture.
 Interval anytime_interval(Count events, double confidence);
 
-/// Logarithm of the evidence (an e-process) that the rate is below `limit`, 0 < limit < 1: at rates of `limit` and
-/// above it ever reaches ln(1 / (1 - confidence)) with probability 1 - confidence at most. 0 without trials. Source:
-/// [HowardEtAl2021] sec. 3.3, discrete mixtures; the 33 rates are ours: odds that fall by 2^(1/4) each from those of
-/// the limit, and 0. An even mixture of likelihood ratios, so that no incomplete beta function is needed.
+/// Returns the logarithm of the evidence (an e-process) that the rate is below `limit`, 0 < limit < 1. If the rate is
+/// `limit` or above, the evidence ever reaches ln(1 / (1 - confidence)) with probability at most 1 - confidence. 0
+/// without trials.
+/// Source: [HowardEtAl2021] sec. 3.3, discrete mixtures. The 33 rates are ours: 32 whose odds fall by a factor of
+/// 2^(1/4) each from those of the limit, and 0. The uniform mixture needs no incomplete beta function.
 double ln_evidence_below(Count events, double limit);
 
-/// The same that the rate is above `limit`.
+/// Returns the logarithm of the evidence that the rate is above `limit`, like ln_evidence_below().
 double ln_evidence_above(Count events, double limit);
 
-/// One-sided: the least limit that ln_evidence_below() decides, 1 where it decides none.
+/// Returns the one-sided upper limit: the minimum limit that ln_evidence_below() decides; 1 if it decides for no limit.
 double anytime_upper_limit(Count events, double confidence);
 
-/// One-sided: the greatest limit that ln_evidence_above() decides, 0 where it decides none.
+/// Returns the one-sided lower limit: the maximum limit that ln_evidence_above() decides; 0 if it decides for no limit.
 double anytime_lower_limit(Count events, double confidence);
 
-/// ln of the sum of exp; -infinity of nothing.
+/// Logarithm of a sum of exponentials; -infinity for an empty sum.
 class LogSum {
  public:
   void add(double logarithm);
   double value() const;
 
  private:
-  double greatest_ = -std::numeric_limits<double>::infinity(), scaled_sum_ = 0.0;
+  double max_ = -std::numeric_limits<double>::infinity(), scaled_sum_ = 0.0;
 };
 
-/// Evidence about the mean of numbers in [0, 1], whatever their distribution: the capital of an even mixture of 16
-/// constant bets, 2^(-g/2) of the most that may be staked. Valid after every number.
+/// Evidence about the mean of numbers in [0, 1] of any distribution: the capital of a uniform mixture of 16 constant
+/// bets. Bet g stakes the share 2^(-g/2) of the maximum. Valid after every number.
 /// Source: [WaudbySmithRamdas2024] sec. 4, the capital process; the fixed bets and their mixture are ours.
 class MeanBets {
  public:
@@ -51,7 +54,7 @@ class MeanBets {
 
   /// @param x  in [0, 1].
   void add(double x);
-  /// Logarithm of the evidence that the mean is above the hypothesis, and below it.
+  /// Logarithm of the evidence that the mean is above (below) the hypothesis.
   double ln_above() const { return ln_mixture(ln_above_); }
   double ln_below() const { return ln_mixture(ln_below_); }
 
@@ -64,8 +67,8 @@ class MeanBets {
   Capitals ln_above_{}, ln_below_{};
 };
 
-/// Two-sided interval of the mean that holds at all times together. @param values  in [0, 1]. @param confidence  in
-/// (0, 1). [0, 1] without values.
+/// Returns the two-sided interval of the mean, valid at all times together; [0, 1] without values.
+/// @param values  in [0, 1]. @param confidence  in (0, 1).
 Interval anytime_mean_interval(const std::vector<double>& values, double confidence);
 
 }  // namespace hedgehop::sim

@@ -16,16 +16,17 @@ namespace {
 
 constexpr std::string_view kClearances[] = {"min_clearance_m", "min_obstacle_clearance_m", "min_ground_clearance_m"};
 
-/// The hypothesis about the mean place in [0, 1]: no difference, or one of the margin against the candidate.
+/// Returns the hypothetical mean in [0, 1] of the scaled differences: no difference, or the margin against the
+/// candidate.
 double place_of_hypothesis(const PairClaim& claim) {
   const double scale = claim.event ? 1.0 : claim.range_m;
   return 0.5 - 0.5 * claim.margin.value_or(0.0) / scale;
 }
 
 void require_margin(const PairClaim& claim) {
-  const double most = claim.event ? 1.0 : claim.range_m;
-  if (!claim.margin || (*claim.margin > 0.0 && *claim.margin < most)) return;
-  throw InputError(fmt::format("'{}': a margin lies between 0 and {:g}, both left out", claim.text, most));
+  const double max = claim.event ? 1.0 : claim.range_m;
+  if (!claim.margin || (*claim.margin > 0.0 && *claim.margin < max)) return;
+  throw InputError(fmt::format("'{}': the margin must be > 0 and < {:g}", claim.text, max));
 }
 
 }  // namespace
@@ -53,14 +54,14 @@ RateClaim parse_rate_claim(const std::string& text) {
   claim.kind = parts[2] == "<" ? RateClaim::Kind::below : RateClaim::Kind::above;
   claim.bound = parse_rule_number(parts[3], text);
   if (claim.bound <= 0.0 || claim.bound >= 1.0) {
-    throw InputError(fmt::format("'{}': the limit of a rate lies between 0 and 1, both left out", text));
+    throw InputError(fmt::format("'{}': the limit of a rate must be > 0 and < 1", text));
   }
   return claim;
 }
 
 RateClaim width_claim(double width, const std::string& event) {
   if (!(width > 0.0 && width < 1.0)) {
-    throw InputError(fmt::format("--until-width {}: a width lies between 0 and 1, both left out", width));
+    throw InputError(fmt::format("--until-width {}: the width must be > 0 and < 1", width));
   }
   return {.event = parse_event(event, "--of " + event),
           .kind = RateClaim::Kind::width,
@@ -142,15 +143,17 @@ PairClaim parse_pair_claim(const std::string& text, std::optional<double> range_
   PairClaim claim{.event = {}, .clearance = {}, .text = text};
   if (parts[2].matched) claim.margin = parse_rule_number(parts[2], text);
   if (std::ranges::find(kClearances, parts[1].str()) != std::end(kClearances)) {
-    if (!range_m) throw InputError(fmt::format("'{}': needs --range, the clearance that is enough, such as 3", text));
+    if (!range_m)
+      throw InputError(fmt::format("'{}': requires --range, the maximum clearance that counts, such as 3", text));
     if (!(*range_m > 0.0)) throw InputError(fmt::format("--range {}: must be above 0", *range_m));
     claim.clearance = parts[1];
     claim.range_m = *range_m;
   } else {
-    if (range_m) throw InputError(fmt::format("'{}': --range is for clearances", text));
+    if (range_m) throw InputError(fmt::format("'{}': --range applies to clearances only", text));
     claim.event = parse_event(parts[1].str(), text);
     if (claim.event->kind == FlightEvent::Kind::figure) {
-      throw InputError(fmt::format("'{}': whether this event is good or bad is not known; compare a clearance", text));
+      throw InputError(
+          fmt::format("'{}': it is not defined whether this event is good or bad; compare a clearance", text));
     }
   }
   require_margin(claim);
@@ -169,7 +172,7 @@ double PairTally::observe(const FlightRecord& record) const {
 }
 
 void PairTally::count(std::span<const double> pair) {
-  // Larger is better; what is not known is the worst for the claim.
+  // Larger is better. An unknown value counts as the worst case for the claim.
   const auto merit = [&](double observed, double unknown) {
     if (std::isnan(observed)) return unknown;
     return claim_.event ? 1.0 - observed : std::clamp(observed, 0.0, claim_.range_m);

@@ -12,7 +12,7 @@
 
 namespace hedgehop::sim {
 
-/// A scenario and the seeds that were decided on before anything was flown.
+/// A scenario and its seeds, fixed before the first flight.
 struct RegisteredFlights {
   std::string scenario;  ///< relative to the plan's file; once read, to the working folder
   std::string seeds;
@@ -20,21 +20,22 @@ struct RegisteredFlights {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RegisteredFlights> auto& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
-  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1400, none of tuned_on"});
+  v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1400, disjoint from tuned_on"});
 }
 
-/// When to stop, and how surely.
+/// The registered stopping rule.
 struct RegisteredRule {
   std::string until;
   double confidence = 0.95;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RegisteredRule> auto& c) {
-  v("until", c.until, {.required = true, .meaning = "claim as of `hedgehop batch --until`, such as collision < 0.01"});
-  v("confidence", c.confidence, {.at_least = 0.5, .below = 1.0, .meaning = "of the claim"});
+  v("until", c.until,
+    {.required = true, .meaning = "claim, as for `hedgehop batch --until`, such as collision < 0.01"});
+  v("confidence", c.confidence, {.at_least = 0.5, .below = 1.0, .meaning = "confidence of the claim"});
 }
 
-/// What parameters were chosen on before.
+/// The tuning that preceded the flights.
 struct RegisteredTuning {
   std::string seeds;
   int64_t settings_tried = 0;
@@ -42,10 +43,10 @@ struct RegisteredTuning {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RegisteredTuning> auto& c) {
   v("seeds", c.seeds, {.required = true, .meaning = "seeds that parameters were chosen on, such as 1:100, or none"});
-  v("settings_tried", c.settings_tried, {.at_least = 0, .meaning = "how many settings were tried on them"});
+  v("settings_tried", c.settings_tried, {.at_least = 0, .meaning = "number of settings tried on these seeds"});
 }
 
-/// A plan that is written, and best committed, before the flights: `plan:` of a campaign, or `hedgehop batch --plan`.
+/// A plan that is written, and preferably committed, before the flights: `plan:` of a campaign, or `batch --plan`.
 struct PlanConfig {
   std::string question;
   std::vector<RegisteredFlights> flights;
@@ -55,55 +56,55 @@ struct PlanConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PlanConfig> auto& c) {
-  v("question", c.question, {.required = true, .meaning = "what the flights are to answer, in words"});
+  v("question", c.question, {.required = true, .meaning = "question that the flights answer, in words"});
   v("flights", c.flights, {.required = true, .meaning = "scenarios, each with its seeds"});
-  v("rule", c.rule, {.meaning = "when to stop; without it, all flights are flown"});
-  v("tuned_on", c.tuned_on, {.required = true, .meaning = "what parameters were chosen on"});
-  v("build", c.build, {.meaning = "identity of the build that is to fly, as `hedgehop --version` prints it"});
+  v("rule", c.rule, {.meaning = "stopping rule; without it, all flights are flown"});
+  v("tuned_on", c.tuned_on, {.required = true, .meaning = "seeds on which the parameters were chosen"});
+  v("build", c.build, {.meaning = "identity of the registered build, as printed by `hedgehop --version`"});
 }
 
-/// A plan's file as it was when it was read.
+/// The file of a plan as read.
 struct Registration {
   std::filesystem::path file;
   std::string sha256;
   PlanConfig config;
 };
 
-/// Throws InputError with every fault, each with its place; seeds both in `tuned_on` and `flights` are one.
+/// Reads a plan. Throws InputError with every fault and its place. Seeds in both `tuned_on` and `flights` are a fault.
 Registration read_registration(const std::filesystem::path& file);
 
-/// The plan that a batch names; none without one. Throws as read_registration().
+/// Returns the plan that a batch names; nullopt if it names no plan. Throws like read_registration().
 std::optional<Registration> plan_of(const BatchOrders& batch);
 
-/// The orders of a plan. @param seeds, overrides  as of read_batch().
+/// Returns the orders of a plan. @param seeds, overrides  as for read_batch().
 BatchOrders orders_of(const Registration& plan, const std::vector<uint64_t>& seeds,
                       const std::vector<std::string>& overrides);
 
-/// What a batch does that its plan does not say, one line each; empty when it is as registered.
-/// @param limit_s  longest wall time of a flight, 0 for none.
+/// Returns the deviations of a batch from its plan, one line each; empty if it is as registered.
+/// @param limit_s  maximum wall time of a flight; 0 for no limit.
 std::vector<std::string> deviations(const Registration& plan, const std::vector<Order>& orders,
                                     const std::optional<StoppingRule>& rule, double limit_s);
 
-/// How a batch was to be flown: what a reader must know beside a rate.
+/// How a batch was planned and flown, which a reader needs to interpret a rate.
 struct Conduct {
   int64_t planned = 0;          ///< flights
-  std::string seeds, tuned_on;  ///< flown, and those that parameters were chosen on; "" where nobody said
+  std::string seeds, tuned_on;  ///< flown seeds, and seeds of the tuning; "" if not stated
   std::optional<int64_t> settings_tried;
   std::optional<StoppingRule> rule;
-  double limit_s = 0.0;  ///< longest wall time of a flight, 0 for none
+  double limit_s = 0.0;  ///< maximum wall time of a flight; 0 for no limit
   std::optional<Registration> plan;
   std::vector<std::string> deviations;  ///< from the plan
 };
 
-/// @param limit_s  longest wall time of a flight, 0 for none.
+/// Returns how a batch is flown. @param limit_s  maximum wall time of a flight; 0 for no limit.
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s);
 
-/// The key `conduct` of batch.json.
+/// Returns the key `conduct` of batch.json.
 nlohmann::ordered_json to_json(const Conduct& conduct);
 
-/// The key `conduct` of a folder's batch.json for its page, with `now` of its plan: "same", "changed" since the
-/// batch was flown, or "gone"; and `sequential` beside it. Null where there is none.
+/// Returns the key `conduct` of a folder's batch.json for its page, plus `sequential`; null if there is no such key.
+/// The key `now` of its plan is "same", "changed" since the batch was flown, or "gone".
 nlohmann::ordered_json conduct_data(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

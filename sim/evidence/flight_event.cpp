@@ -22,7 +22,7 @@ constexpr NamedKind kKinds[] = {{"collision", FlightEvent::Kind::collision},
                                 {"timeout", FlightEvent::Kind::timeout},
                                 {"success", FlightEvent::Kind::success}};
 
-/// Columns that every result fills: the judged figures of a table without flights.
+/// Requires a column that every result fills: a judged figure of a table without flights.
 void require_figure(const std::string& name, std::string_view rule) {
   const Table table = flight_table({});
   std::vector<std::string_view> allowed;
@@ -93,7 +93,7 @@ std::optional<double> figure_of(const FlightRecord& record, const std::string& f
 double parse_rule_number(const std::string& text, std::string_view rule) {
   const ParsedNumber number = parse_number(text, /*degrees=*/false);
   if (number.kind == ParsedNumber::Kind::number) return number.member;
-  throw InputError(fmt::format("'{}': '{}' is no finite number", rule, text));
+  throw InputError(fmt::format("'{}': '{}' is not a finite number", rule, text));
 }
 
 }  // namespace hedgehop::sim

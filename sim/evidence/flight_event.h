@@ -8,33 +8,34 @@
 
 namespace hedgehop::sim {
 
-/// What a flight either does or does not: "collision", "timeout", "success" (all checks hold), or
-/// "rate(COLUMN < NUMBER)", of a figure that every result has.
+/// A binary event of a flight: "collision", "timeout", "success" (all checks pass), or "rate(COLUMN < NUMBER)" for a
+/// figure that every result contains.
 struct FlightEvent {
   enum class Kind { collision, timeout, success, figure };
   Kind kind = Kind::collision;
   std::string figure;  ///< of Kind::figure: a column of the batch's table
-  bool below = true;   ///< of Kind::figure: whether the event is a figure below the threshold, or above
+  bool below = true;   ///< of Kind::figure: whether the event is a figure below (true) or above the threshold
   double threshold = 0.0;
 
-  /// Whether a flight does better without it.
+  /// Returns whether the event is undesired.
   bool bad() const { return kind != Kind::success; }
 };
 
-/// Throws InputError for events and columns that do not exist, naming the nearest. @param rule  for the message.
+/// Reads an event. Throws InputError for unknown events and columns, with the nearest name. @param rule  for the
+/// message.
 FlightEvent parse_event(std::string_view text, std::string_view rule);
 
-/// The event in words, as parse_event() reads it.
+/// Returns the event as text that parse_event() reads.
 std::string to_string(const FlightEvent& event);
 
-/// Whether the flight does it; nothing of a flight that left no result, ended by a fault, or lacks the figure. Nothing
-/// to be asked of a flight (no checks) is no success.
+/// Returns whether the event occurred; nullopt if the flight has no result, ended with a fault, or lacks the figure. A
+/// flight without checks is not a success.
 std::optional<bool> observe(const FlightEvent& event, const FlightRecord& record);
 
-/// The figure of a flight's result; nothing where it lacks it. A clearance without anything near is infinite.
+/// Returns a figure of a flight's result; nullopt if missing. A clearance with no obstacle in range is infinite.
 std::optional<double> figure_of(const FlightRecord& record, const std::string& figure);
 
-/// A number of a rule. Throws InputError naming the rule.
+/// Reads a number of a rule. Throws InputError that names the rule.
 double parse_rule_number(const std::string& text, std::string_view rule);
 
 }  // namespace hedgehop::sim

@@ -211,7 +211,7 @@ class Search {
     constexpr int kPointsPerFlight = 20;  // maximum; all but one of them violate the constraints
     minimize({.method = OptimizeDesign::Method::direct,
               .dimensions = dimensions(),
-              .most_points = kPointsPerFlight * static_cast<int>(design_.budget)},
+              .max_points = kPointsPerFlight * static_cast<int>(design_.budget)},
              [&](const Coordinates& point) { return cost(point); });
   }
   double cost(const Coordinates& point) {

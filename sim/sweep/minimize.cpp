@@ -22,7 +22,7 @@ nlopt::algorithm algorithm(OptimizeDesign::Method method) {
   return nlopt::LN_SBPLX;
 }
 
-/// NLopt passes on only exceptions of its own.
+/// The cost function; stores its exception because NLopt passes on only its own exceptions.
 struct Function {
   const std::function<double(const std::vector<double>&)>& cost;
   std::exception_ptr fault = {};
@@ -44,16 +44,16 @@ void minimize(const MinimizeOptions& options, const std::function<double(const s
   nlopt::opt optimizer(algorithm(options.method), static_cast<unsigned>(options.dimensions));
   optimizer.set_lower_bounds(0.0);
   optimizer.set_upper_bounds(1.0);
-  optimizer.set_maxeval(options.most_points);
+  optimizer.set_maxeval(options.max_points);
   optimizer.set_xtol_abs(options.tolerance);
   optimizer.set_initial_step(kFirstStep);
   Function function{.cost = cost};
   optimizer.set_min_objective(Function::call, &function);
   std::vector<double> x(options.dimensions, 0.5);
-  double least = 0.0;
+  double min_cost = 0.0;
   try {
-    optimizer.optimize(x, least);
-  } catch (const nlopt::roundoff_limited&) {  // as good as it gets
+    optimizer.optimize(x, min_cost);
+  } catch (const nlopt::roundoff_limited&) {  // converged to the limit of precision
   } catch (const nlopt::forced_stop&) {
     try {
       std::rethrow_exception(function.fault);

@@ -10,7 +10,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Mean of a column over a point's flights; a flight that does not pass or lacks a number there counts its cost.
+/// Returns the mean of a column over a point's flights. A flight that fails or lacks the figure counts as failure_cost.
 double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
   const size_t column = column_index(table, design.minimize);
@@ -33,7 +33,7 @@ double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& 
   return sum / static_cast<double>(records.size());
 }
 
-/// The search's own view: it moves in the unit cube, whose points become values.
+/// State of the search in the unit cube, whose points are mapped to parameter values.
 struct Search {
   const SweepConfig& sweep;
   const OptimizeDesign& design;
@@ -72,7 +72,7 @@ Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
   constexpr double kTolerance = 1e-4;  // of a range: finer differences of a gain are of no interest
   minimize({.method = design.method,
             .dimensions = sweep.parameters.size(),
-            .most_points = static_cast<int>(design.evaluations),
+            .max_points = static_cast<int>(design.evaluations),
             .tolerance = kTolerance},
            [&](const std::vector<double>& coordinates) { return search.cost(coordinates); });
   return std::move(search.best);

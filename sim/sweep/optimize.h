@@ -10,35 +10,35 @@
 
 namespace hedgehop::sim {
 
-/// Thrown by a function to end its minimization.
+/// Thrown by a cost function to end its minimization.
 struct StopMinimizing {};
 
 struct MinimizeOptions {
   OptimizeDesign::Method method = OptimizeDesign::Method::subplex;
   size_t dimensions = 1;
-  int most_points = 100;
-  double tolerance = 0.0;  ///< of a coordinate; 0: no end but the number of points
+  int max_points = 100;
+  double tolerance = 0.0;  ///< of a coordinate; 0: only max_points ends the search
 };
 
-/// Minimizes a function of points in the unit cube, from its middle, by NLopt. Equal functions see equal points in the
-/// same order. What the function throws comes through. Throws InputError in a build without NLopt.
+/// Minimizes a function on the unit cube with NLopt, starting at its center. Equal functions are evaluated at equal
+/// points in the same order. Exceptions of the function are passed on. Throws InputError in a build without NLopt.
 void minimize(const MinimizeOptions& options, const std::function<double(const std::vector<double>&)>& cost);
 
-/// Flies the orders of one point; nothing when the search is to stop. An earlier result of the same order is reused.
+/// Flies the orders of one point; returns nullopt to stop the search. An earlier result of the same order is reused.
 using FlyPoint = std::function<std::optional<std::vector<FlightRecord>>(const std::vector<Order>& orders)>;
 
 /// The result of an optimization.
 struct Optimum {
   std::vector<std::string> values;
   double cost = 0.0;
-  SweepOrders orders;                 ///< of every point flown, in order
-  std::vector<FlightRecord> records;  ///< of those
-  bool stopped = false;               ///< by `fly`, before the search was done
+  SweepOrders orders;                 ///< of every flown point, in order
+  std::vector<FlightRecord> records;  ///< of the orders
+  bool stopped = false;               ///< by `fly`, before the search ended
 };
 
-/// Minimizes the mean of the design's column over the sweep's seeds, the same at every point. Equal sweeps fly equal
-/// points in the same order, so that flights left by an interrupted search are found again.
-/// What `fly` throws comes through, and InputError when the table of the first point lacks the design's column.
+/// Minimizes the mean of the design's column over the sweep's seeds, which are the same at every point. Equal sweeps
+/// fly equal points in the same order, so a resumed search reuses the flights of the interrupted one. Exceptions of
+/// `fly` are passed on. Throws InputError if the table of the first point lacks the design's column.
 Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly);
 
 }  // namespace hedgehop::sim

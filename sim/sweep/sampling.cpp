@@ -50,7 +50,7 @@ std::array<uint32_t, kBits> directions(size_t dimension) {
   return v;
 }
 
-/// A random order of 0 .. count - 1 (Fisher and Yates).
+/// Returns a random permutation of 0 .. count - 1 (Fisher and Yates).
 std::vector<size_t> permutation(size_t count, Random& generator) {
   std::vector<size_t> order(count);
   std::iota(order.begin(), order.end(), size_t{0});
@@ -64,7 +64,7 @@ std::vector<size_t> permutation(size_t count, Random& generator) {
 
 std::vector<double> sobol_point(uint32_t index, size_t dimensions) {
   if (dimensions < 1 || dimensions > kSobolDimensions) {
-    throw std::invalid_argument("Sobol's sequence is known here for 1 to 10 parameters");
+    throw std::invalid_argument("Sobol's sequence supports 1 to 10 parameters");
   }
   std::vector<double> point;
   for (size_t dimension = 0; dimension < dimensions; ++dimension) {

@@ -20,9 +20,9 @@ struct Close {
 using Database = std::unique_ptr<sqlite3, Close>;
 using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 
-/// Refuses what did not go well.
-void expect(bool well, sqlite3* database) {
-  if (!well) throw std::runtime_error(sqlite3_errmsg(database));
+/// Throws SQLite's message unless the call succeeded.
+void expect(bool succeeded, sqlite3* database) {
+  if (!succeeded) throw std::runtime_error(sqlite3_errmsg(database));
 }
 
 std::string quoted_name(const std::string& name) {
@@ -31,8 +31,8 @@ std::string quoted_name(const std::string& name) {
   return quoted + "\"";
 }
 
-/// SQLite takes names that differ only in case for one: the later gets a number.
-std::string unlike(const std::string& name, std::set<std::string>& taken) {
+/// Returns a column name that is unique regardless of case, as SQLite requires: a repeated name gets a number.
+std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   const auto lower = [](std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
@@ -56,13 +56,13 @@ void fill(const std::filesystem::path& file, const Table& table) {
   const int error = sqlite3_open(file.c_str(), &opened);
   const Database database(opened);
   expect(error == SQLITE_OK, opened);
-  // The file is new and becomes visible by a rename: a journal would protect nothing.
+  // No journal is required because the file is new and becomes visible by a rename.
   expect(sqlite3_exec(opened, "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN", nullptr, nullptr, nullptr) ==
              SQLITE_OK,
          opened);
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (const TableColumn& column : table.columns) names.push_back(quoted_name(unlike(column.name, taken)));
+  for (const TableColumn& column : table.columns) names.push_back(quoted_name(unique_name(column.name, taken)));
   const std::string create = fmt::format("CREATE TABLE flights ({})", fmt::join(names, ", "));
   expect(sqlite3_exec(opened, create.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK, opened);
 

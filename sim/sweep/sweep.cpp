@@ -14,7 +14,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// A number where the text is one, so that tables can be sorted and averaged.
+/// Returns the cell of a value: a number if the text is a number, so that tables can be sorted and averaged.
 Cell value_cell(const std::string& text) {
   if (const auto whole = parse_signed(text)) return *whole;
   const ParsedNumber parsed = parse_number(text, false);
@@ -36,7 +36,7 @@ std::string sweep_command(const SlurmJob& job) {
                      shell_quoted(job.out.string()), worker);
 }
 
-/// Runs a shell command; its output without the last line's end.
+/// Runs a shell command and returns its output without the final newline.
 std::string output_of(const std::string& command) {
   FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (!pipe) throw std::runtime_error("cannot start a shell");
@@ -56,7 +56,7 @@ Shard parse_shard(const std::string& text) {
   const auto index = parse_unsigned(text.substr(0, slash));
   const auto of = slash == std::string::npos ? std::nullopt : parse_unsigned(text.substr(slash + 1));
   if (!index || !of || *index < 1 || *index > *of) {
-    throw InputError(fmt::format("--shard {}: expected such as 2/8, from 1/8 to 8/8", text));
+    throw InputError(fmt::format("--shard {}: expected a shard such as 2/8, from 1/8 to 8/8", text));
   }
   return {static_cast<size_t>(*index), static_cast<size_t>(*of)};
 }
@@ -118,7 +118,7 @@ std::string array_script(const SlurmJob& job) {
          fmt::format(
              "#SBATCH --array=1-{0}\n#SBATCH --requeue\n"
              "{1} --shard $SLURM_ARRAY_TASK_ID/{0} -j {2}{3}\nstatus=$?\n"
-             "# A failed check is a result; a flight that left none is tried once more, perhaps on another node.\n"
+             "# A failed check is a result. A flight without a result is repeated once, perhaps on another node.\n"
              "missing=$({1} --shard $SLURM_ARRAY_TASK_ID/{0} --missing) || exit $status\n"
              "if [ \"$missing\" != 0 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" = 0 ]; then\n"
              "  scontrol requeue ${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\n  sleep 60  # until Slurm ends this "

@@ -10,60 +10,60 @@
 
 namespace hedgehop::sim {
 
-/// One part of a sweep, for several machines: every `of`-th flight, beginning with number `index`.
+/// One part of a sweep that is distributed over machines: every `of`-th flight, starting with number `index`.
 struct Shard {
   size_t index = 1, of = 1;  ///< 1 <= index <= of
 };
 
-/// "2/8". Throws InputError for anything else.
+/// Reads a shard such as "2/8". Throws InputError for any other text.
 Shard parse_shard(const std::string& text);
 
-/// A sweep's flights, all of them.
+/// All flights of a sweep.
 struct SweepOrders {
   std::vector<Order> orders;
-  std::vector<std::vector<std::string>> values;  ///< of the parameters, one list an order
-  std::vector<size_t> points;                    ///< number of the point, one an order
+  std::vector<std::vector<std::string>> values;  ///< of the parameters, one list per order
+  std::vector<size_t> points;                    ///< number of the point, one per order
 
   void add(const SweepConfig& sweep, size_t point, const std::vector<std::string>& point_values);
   void append(const SweepOrders& more);
 };
 
-/// Throws InputError with the faults of every point that the scenario refuses. Not for OptimizeDesign.
+/// Returns the orders of a sweep. Throws InputError with the faults of every invalid point. Not for OptimizeDesign.
 SweepOrders sweep_orders(const SweepConfig& sweep);
 
-/// The orders of a shard.
+/// Returns the orders of a shard.
 SweepOrders part_of(const SweepOrders& all, Shard shard);
 
-/// The flights' table with the point's number and the parameters' values as columns of their own.
-/// @param before  further columns that stand before them.
+/// Returns the table of flights with additional columns for the point's number and the parameter values.
+/// @param before  further columns to the left of these.
 Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
                   const std::vector<ExtraColumn>& before = {});
 
-/// A sweep as a job array of an existing Slurm, one shard a task.
+/// A sweep as a job array of an existing Slurm cluster, one shard per task.
 struct SlurmJob {
-  std::filesystem::path program;     ///< hedgehop, absolute, as all nodes see it
-  std::filesystem::path sweep;       ///< the sweep's file as it was named: the tables' re-run commands use that name
-  std::filesystem::path out;         ///< the results, absolute, on a disk that all nodes share
-  std::filesystem::path folder;      ///< to run in, so that relative paths stay valid; absolute
-  std::filesystem::path worker;      ///< program of the workers when not hedgehop itself; absolute or empty
-  std::filesystem::path junit;       ///< written by the step that gathers the results; absolute or empty
+  std::filesystem::path program;     ///< hedgehop, absolute path, valid on all nodes
+  std::filesystem::path sweep;       ///< the sweep's file as given; used in the re-run commands of tables
+  std::filesystem::path out;         ///< results folder, absolute, on a disk shared by all nodes
+  std::filesystem::path folder;      ///< working folder, so that relative paths stay valid; absolute
+  std::filesystem::path worker;      ///< program of the workers if not hedgehop itself; absolute or empty
+  std::filesystem::path junit;       ///< written by the merge step; absolute or empty
   size_t tasks = 1;                  ///< shards, 1..1000 (Slurm's own limit of an array's index)
-  size_t cores = 1;                  ///< of a task, and workers
-  double limit_s = 0.0;              ///< of a flight, 0 for none
+  size_t cores = 1;                  ///< per task, equal to its number of workers
+  double limit_s = 0.0;              ///< of a flight; 0 for no limit
   std::vector<std::string> options;  ///< for every sbatch, such as --partition=night
 };
 
-/// The batch script of the array: flies a shard; flights that left no result have the task re-queued once.
+/// Returns the batch script of the array. It flies a shard and re-queues the task once if flights have no result.
 std::string array_script(const SlurmJob& job);
-/// The batch script of the step after it, which gathers the results of all shards.
+/// Returns the batch script of the merge step, which collects the results of all shards.
 std::string merge_script(const SlurmJob& job);
 
 /// Writes both scripts into the results' folder and submits them. @return the array's job number.
-/// Throws std::runtime_error with sbatch's message when it refuses or does not exist.
+/// Throws std::runtime_error with sbatch's message if it fails or does not exist.
 std::string submit(const SlurmJob& job);
 
-/// Writes the table as table `flights` of an SQLite 3 file, aside and then renamed, so that a file that is there is
-/// whole. Throws std::runtime_error naming the file and the cause.
+/// Writes the table as table `flights` of an SQLite 3 file. The file is written under another name and then renamed, so
+/// an existing file is always complete. Throws std::runtime_error that names the file and the cause.
 void write_sqlite(const std::filesystem::path& file, const Table& table);
 
 }  // namespace hedgehop::sim

@@ -15,7 +15,7 @@
 namespace hedgehop::sim {
 namespace {
 
-/// The fault of a parameter that makes no sense; nothing when there is none.
+/// Returns the fault of a parameter; "" if it is valid.
 std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) {
   const bool is_grid = std::holds_alternative<GridDesign>(design);
   if (p.path == "seed") return "varied by 'seeds', not as a parameter";
@@ -68,14 +68,14 @@ SweepConfig read_sweep(const std::filesystem::path& file) {
     const std::string fault = parameter_fault(parameter, sweep.design);
     if (!fault.empty()) faults.add(position_of(root, at), fmt::format("'{}': {}", parameter.path, fault));
     if (!paths.insert(parameter.path).second)
-      faults.add(position_of(root, at), fmt::format("'{}' stands twice", parameter.path));
+      faults.add(position_of(root, at), fmt::format("'{}' occurs twice", parameter.path));
     if (std::holds_alternative<ListDesign>(sweep.design) &&
         parameter.values.size() != sweep.parameters[0].values.size()) {
       faults.add(position_of(root, at),
-                 fmt::format("'{}': a list needs as many values of each parameter", parameter.path));
+                 fmt::format("'{}': a list requires the same number of values for each parameter", parameter.path));
     }
   }
-  if (sweep.parameters.empty()) faults.add(position_of(root, "parameters"), "needs a parameter");
+  if (sweep.parameters.empty()) faults.add(position_of(root, "parameters"), "requires at least one parameter");
   if (sweep.seeds) parse_seeds(*sweep.seeds);
   if (sweep.seeds && sweep.tuned_on && !within(*sweep.seeds, *sweep.tuned_on)) {
     faults.add(position_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "

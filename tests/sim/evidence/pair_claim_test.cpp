@@ -129,10 +129,10 @@ TEST(PairClaim, RejectsClaimsThatCannotBeDecided) {
   };
   EXPECT_THAT(message("colision: better", {}), HasSubstr("did you mean 'collision'?"));
   EXPECT_THAT(message("collision: best", {}), HasSubstr("expected such as"));
-  EXPECT_THAT(message("collision: no worse by 0", {}), HasSubstr("a margin lies between 0 and 1"));
-  EXPECT_THAT(message("min_clearance_m: better", {}), HasSubstr("needs --range"));
-  EXPECT_THAT(message("min_clearance_m: no worse by 3", 3.0), HasSubstr("a margin lies between 0 and 3"));
-  EXPECT_THAT(message("collision: better", 3.0), HasSubstr("--range is for clearances"));
+  EXPECT_THAT(message("collision: no worse by 0", {}), HasSubstr("the margin must be > 0 and < 1"));
+  EXPECT_THAT(message("min_clearance_m: better", {}), HasSubstr("requires --range"));
+  EXPECT_THAT(message("min_clearance_m: no worse by 3", 3.0), HasSubstr("the margin must be > 0 and < 3"));
+  EXPECT_THAT(message("collision: better", 3.0), HasSubstr("--range applies to clearances only"));
 }
 
 }  // namespace
