@@ -4,18 +4,18 @@
 
 namespace hedgehop::sim {
 
-/// Hedgehop's version, "MAJOR.MINOR.PATCH".
+/// Returns the version of Hedgehop, "MAJOR.MINOR.PATCH".
 std::string_view version();
 
-/// 16 hexadecimal digits: a hash of all sources that are compiled in, the compiler and its options. Two builds of equal
-/// identity fly equal flights on the same libraries.
+/// Returns a hash of all compiled sources, the compiler and its options, as 16 hexadecimal digits. Builds with equal
+/// identity fly equal flights with the same libraries.
 std::string_view build_identity();
 
-/// The commit that changed these sources last, such as "44e015e", or "44e015e and changes"; empty where they are no git
-/// checkout.
+/// Returns the last commit that changed these sources, such as "44e015e" or "44e015e and changes"; empty if they are
+/// not a git checkout.
 std::string_view build_commit();
 
-/// What compiled them: "GNU 12.2.0".
+/// Returns the compiler, such as "GNU 12.2.0".
 std::string_view build_compiler();
 
 }  // namespace hedgehop::sim

@@ -13,41 +13,41 @@
 #include "scenes/figures.h"
 #include "scenes/scene.h"
 
-/// What a flight leaves: the result, the two tables, the map. Frames and units as in CONTRIBUTING.md.
+/// The outputs of a flight: result, trajectory, decisions and map. Frames and units as in CONTRIBUTING.md.
 namespace hedgehop::sim {
 
 struct RecordedPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< m
   Eigen::Matrix3d covariance_W = Eigen::Matrix3d::Zero();  ///< m^2
-  std::optional<bool> is_true;  ///< is matched with a true corner (MapScore); none where corners are unknown
+  std::optional<bool> is_true;  ///< whether a true corner matches (MapScore); nullopt if corners are unknown
 };
 
 struct RecordedCorner {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< true, m
-  bool counts = false;                            ///< was in sight long enough (MapScore)
-  bool found = false;                             ///< is matched with a point of the map (MapScore)
+  bool counts = false;                            ///< whether it was in view long enough (MapScore)
+  bool found = false;                             ///< whether a point of the map matches (MapScore)
 };
 
 struct PlannedPath {
-  double t_s = 0.0;                        ///< of the decision; it holds until the next one
-  std::vector<Eigen::Vector2d> places_NE;  ///< to turn at, m, the last one included
+  double t_s = 0.0;                        ///< time of the decision; the path is valid until the next one
+  std::vector<Eigen::Vector2d> places_NE;  ///< turning points and end, m
 };
 
 struct MapRecord {
   std::vector<RecordedPoint> points;
   std::vector<RecordedCorner> corners;
   std::vector<Eigen::Vector2d> course_NE;  ///< m
-  std::vector<PlannedPath> paths;          ///< detours, in order of time; MapLog (sim/loop) chooses them
+  std::vector<PlannedPath> paths;          ///< detours, in order of time; selected by MapLog (sim/loop)
 
   bool empty() const { return points.empty() && course_NE.empty(); }
 };
 
-/// How a flight ended.
+/// The end of a flight.
 enum class Outcome {
-  reached,   ///< at the goal: inside its radius, and at its height (GoalConfig::holds)
+  reached,   ///< at the goal: within its radius and at its altitude (GoalConfig::holds)
   collided,  ///< contact of the hull with a solid or the ground
-  timeout,   ///< the scenario's duration is over; for a scenario without a goal the normal end
-  fault,     ///< the module threw or the state stopped being finite
+  timeout,   ///< the scenario's duration elapsed; the normal end of a scenario without a goal
+  fault,     ///< the module threw an exception, or the state became non-finite
 };
 std::string_view to_string(Outcome outcome);
 
@@ -56,13 +56,13 @@ struct TrajectoryRow {
   double t_s = 0.0;
   Eigen::Vector3d p_WB_true, rpy_true, v_WB_W_true, w_WB_B_true;  ///< m, rad (3-2-1), m/s, rad/s
   Eigen::Vector3d p_WB_est, rpy_est, v_WB_W_est;
-  std::optional<Eigen::Vector2d> v_WB_W_cmd;  ///< north, east; none while another kind of command holds
+  std::optional<Eigen::Vector2d> v_WB_W_cmd;  ///< north, east; nullopt while another kind of command is active
   std::optional<double> altitude_cmd_m, heading_cmd_rad;
-  double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;  ///< +inf where there is nothing
-  Eigen::Vector4d controls = Eigen::Vector4d::Zero();  ///< where the actuators stand, see Flight::control_names
+  double obstacle_clearance_m = 0.0, ground_clearance_m = 0.0;  ///< +inf if no obstacle or ground is within range
+  Eigen::Vector4d controls = Eigen::Vector4d::Zero();  ///< positions of the actuators, see Flight::control_names
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();    ///< m/s
-  bool model_valid = true;                             ///< false where the rotors leave the range of momentum theory
-  std::optional<double> range_m;                       ///< last reading of the range finder; none when it read nothing
+  bool model_valid = true;                             ///< false if a rotor leaves the range of momentum theory
+  std::optional<double> range_m;                       ///< last reading of the range finder; nullopt without a reading
 };
 
 /// One decision of the module.
@@ -71,39 +71,39 @@ struct DecisionRow {
   std::string status;
   std::optional<Eigen::Vector2d> v_WB_W_cmd;
   std::optional<double> altitude_cmd_m, heading_cmd_rad;
-  std::vector<double> signals;  ///< in the order of Flight::signals; NaN where unknown
+  std::vector<double> signals;  ///< in the order of Flight::signals; NaN if unknown
 };
 
-/// Begins the name of every figure that a module reports of itself, so that none can pass for one of the judge's.
+/// Prefix of every figure that a module reports, which distinguishes it from figures measured by the simulator.
 inline constexpr std::string_view kModulePrefix = "module.";
 
 struct NamedUnit {
   std::string name, unit;
 };
 
-/// Smallest distance of the hull to something, and when; +inf when nothing was ever within reach of the search.
+/// The minimum distance of the hull to an obstacle or the ground, and its time; +inf if it was never within range.
 struct ClosestApproach {
   double distance_m = 0.0;
   double t_s = 0.0;
-  std::string what;                       ///< name of the solid, "ground", or "" for none
-  Eigen::Vector3d p_WB_true = {0, 0, 0};  ///< where the vehicle was
+  std::string what;                       ///< name of the solid, "ground", or ""
+  Eigen::Vector3d p_WB_true = {0, 0, 0};  ///< position of the vehicle
 };
 
 struct CheckResult {
   std::string name;
   bool passed = false;
-  double value = 0.0;  ///< NaN when it could not be measured
-  double limit = 0.0;  ///< NaN when the check has no number
+  double value = 0.0;  ///< NaN if it could not be measured
+  double limit = 0.0;  ///< NaN if the check has no numeric limit
   std::string unit;
-  std::string_view must = "<=";  ///< how the value must stand to the limit: "<=", ">=" or ">"
-  std::optional<double> t_s;     ///< when the value was taken; none where it is of the whole flight
+  std::string_view must = "<=";  ///< required relation of value to limit: "<=", ">=" or ">"
+  std::optional<double> t_s;     ///< time of the value; nullopt if it is a value of the whole flight
 };
 
-/// Where a figure of a flight comes from.
+/// The source of a figure of a flight.
 enum class FigureKind {
-  judged,    ///< from the true flight
-  module,    ///< from the module itself
-  wall_time  ///< from the machine: differs from run to run, so two flights that are equal may differ in it
+  judged,    ///< measured by the simulator on the true flight
+  module,    ///< reported by the module
+  wall_time  ///< wall time; may differ between equal flights
 };
 std::string_view to_string(FigureKind kind);
 
@@ -114,28 +114,28 @@ struct MetricValue {
   FigureKind kind = FigureKind::judged;
 };
 
-/// Median and 95th percentile of a stage's wall time, ms. Never part of anything that affects a flight.
+/// Median and 95th percentile of a stage's wall time, ms. They must not influence a flight.
 struct StageTime {
   double median_ms = 0.0, p95_ms = 0.0;
 };
 
-/// What a flight's bits depend on besides the build: two flights of one build are equal where these are.
+/// The libraries on which the bits of a flight depend, besides the build. Equal builds and libraries fly equal flights.
 struct Libraries {
-  std::string images;     ///< who computed on them: "OpenCV 4.6.0"
-  std::string functions;  ///< sin, exp and the like: "SLEEF 3.5.1"
+  std::string images;     ///< image processing: "OpenCV 4.6.0"
+  std::string functions;  ///< mathematical functions: "SLEEF 3.5.1"
   std::string renderer;   ///< one line: "tiles", or vendor, renderer and version of OpenGL
 };
 
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
-  /// What is true of all that the module got: "camera 'front': projected corners", "sensor 'gps': exact"; empty where
-  /// all of it was measured.
+  /// Ground truth in the module's input: "camera 'front': projected corners", "sensor 'gps': exact"; empty if the input
+  /// was entirely measured.
   std::vector<std::string> truth_used;
-  std::vector<std::string> failures;  ///< that the scenario set: "20 s to 22 s: camera.front black"
+  std::vector<std::string> failures;  ///< injected by the scenario: "20 s to 22 s: camera.front black"
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
-  std::optional<double> goal_distance_m;  ///< at the end, horizontal; none without a goal
+  std::optional<double> goal_distance_m;  ///< horizontal, at the end; nullopt without a goal
   int64_t decisions = 0;
   StageTime decision_ms, render_ms, velocimeter_ms,
       physics_ms;  ///< per decision, per instant (all cameras), per frame, per tick
@@ -144,7 +144,7 @@ struct FlightResult {
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
   Libraries libraries;
   std::vector<MetricValue> metrics;
-  scenes::SceneFigures scene;  ///< of what stands at the height of the start, within a meter
+  scenes::SceneFigures scene;  ///< of the obstacles within one meter of the start's altitude
 };
 
 struct Flight {
@@ -153,9 +153,9 @@ struct Flight {
   std::vector<NamedUnit> signals;
   std::vector<TrajectoryRow> trajectory;
   std::vector<DecisionRow> decisions;
-  double command_latency_s = 0.0;              ///< from a decision to its command's effect, >= 0
-  MapRecord map;                               ///< empty for a module that makes no map
-  std::shared_ptr<const scenes::Scene> scene;  ///< that was flown through
+  double command_latency_s = 0.0;              ///< from a decision to the effect of its command, >= 0
+  MapRecord map;                               ///< empty if the module builds no map
+  std::shared_ptr<const scenes::Scene> scene;  ///< the scene of the flight
 };
 
 }  // namespace hedgehop::sim

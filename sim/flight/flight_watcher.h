@@ -13,45 +13,45 @@
 
 namespace hedgehop::sim {
 
-/// What was measured on one tick, and what it was measured of.
+/// The measurements of one tick and the true state behind them.
 struct SensorTick {
   int64_t t_ns = 0;
   dynamics::RigidBodyState body_true;
-  std::optional<dynamics::sensors::ImuReading> imu;  ///< none on a tick without a reading
-  dynamics::sensors::ImuReading imu_bias;            ///< what it is off by, noise and misalignment aside
-  /// Of all cameras that expose on this tick, lost images left out; good until the next tick.
+  std::optional<dynamics::sensors::ImuReading> imu;  ///< nullopt on a tick without a reading
+  dynamics::sensors::ImuReading imu_bias;            ///< bias of the reading, without noise and misalignment
+  /// Frames of all cameras that expose on this tick, except lost images; valid until the next tick.
   std::span<const avoidance::CameraFrame> frames;
-  /// What a camera sees on this tick as ImageChannel::depth, without imperfections.
+  /// Returns the view of a camera on this tick as ImageChannel::depth, without imperfections.
   std::function<cv::Mat(std::string_view role)> depth;
-  /// As ImageChannel::labels; and 255 where something that moves is seen, else 0.
+  /// `labels` returns ImageChannel::labels; `moving` returns 255 for pixels of moving obstacles, otherwise 0.
   std::function<cv::Mat(std::string_view role)> labels, moving;
-  /// As ImageChannel::flow, of the camera's last image that was not lost, to this tick. Throws std::logic_error at the
-  /// first.
+  /// Returns ImageChannel::flow from the camera's last image that was not lost to this tick. Throws std::logic_error
+  /// for the first image.
   std::function<cv::Mat(std::string_view role)> flow_to_here;
 };
 
-/// A flight at one instant, for people.
+/// A flight at one instant, for display.
 struct ShownInstant {
   int64_t t_ns = 0;
-  cv::Mat annotated;                               ///< the module's image (CV_8UC3, RGB); empty where it draws none
-  std::span<const avoidance::CameraFrame> frames;  ///< of all cameras, where it draws none
+  cv::Mat annotated;                               ///< the module's image (CV_8UC3, RGB); empty if it draws no image
+  std::span<const avoidance::CameraFrame> frames;  ///< of all cameras, if the module draws no image
   std::string_view status;                         ///< of the last decision; empty before the first
-  double obstacle_clearance_m = 0.0;               ///< true, of the hull; infinity where nothing is within range
+  double obstacle_clearance_m = 0.0;               ///< true, of the hull; infinity if no obstacle is in range
 };
 
-/// Looks on while a flight is flown, for films, exports and progress; what it does cannot reach the flight.
+/// Observes a flight, for videos, exports and progress. A watcher cannot influence the flight.
 class FlightWatcher {
  public:
   virtual ~FlightWatcher() = default;
 
-  /// Images a second it wants, 0 for none.
+  /// Returns the required image rate; 0 for no images.
   virtual double image_rate_hz() const { return 0.0; }
   virtual void on_images(const ShownInstant& /*shown*/) {}
-  /// Whether it wants on_sensors(). Then every camera of the rig exposes at its rate, whoever else needs it.
+  /// Returns whether on_sensors() is required. If so, every camera of the rig exposes at its own rate.
   virtual bool wants_sensors() const { return false; }
-  /// On every tick on which the IMU or a camera measured something.
+  /// Called on every tick with a reading of the IMU or a camera.
   virtual void on_sensors(const SensorTick& /*tick*/) {}
-  /// After every second of flight. @param goal_distance_m horizontal, NaN without a goal.
+  /// Called after every second of flight. @param goal_distance_m  horizontal; NaN without a goal.
   virtual void on_progress(double /*t_s*/, double /*duration_s*/, double /*goal_distance_m*/) {}
 };
 
