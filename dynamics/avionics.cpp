@@ -11,7 +11,7 @@ namespace {
 
 using sensors::Instrument;
 
-constexpr double kSurveyedHeadingSigmaRad = 0.017453292519943295;  // 1 deg: chosen, as good as a usual compass
+constexpr double kSurveyedHeadingSigmaRad = 0.017453292519943295;  // 1 deg: chosen, the accuracy of a typical compass
 
 }  // namespace
 
@@ -36,11 +36,10 @@ Avionics::Avionics(const AvionicsConfig& config, const VehicleConfig& vehicle, d
       navigation_(config.navigation,
                   {config.imu, config.gps, config.height_sensor, config.magnetometer, config.barometer}),
       autopilot_(config.autopilot, vehicle) {
-  reset_options();
+  reset_optional_sensors();
 }
 
-/// What need not be on board.
-void Avionics::reset_options() {
+void Avionics::reset_optional_sensors() {
   if (config_.barometer.enabled) barometer_.emplace(config_.barometer, physics_dt_s_, seeds_.barometer);
   const sensors::RangerConfig& beam = config_.range_finder.ranger;
   if (beam.enabled) range_finder_.emplace("range_finder", beam, physics_dt_s_, seeds_.range_finder);
@@ -54,7 +53,7 @@ void Avionics::reset(const SensedTruth& truth) {
   magnetometer_ = sensors::Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
   imu_reading_.reset();
   failures_ = sensors::SensorFailures(failing_);
-  reset_options();
+  reset_optional_sensors();
 
   RandomStream survey(seeds_.survey);
   const Eigen::Vector3d p_WB_est = truth.body.p_WB + config_.navigation.position_sigma_m * sensors::normal3(survey);
@@ -65,7 +64,7 @@ void Avionics::reset(const SensedTruth& truth) {
   autopilot_.reset(navigation_.estimate());
 }
 
-/// Stands still on level ground before take-off: the sensors read on, from their streams, up to the flight.
+/// Reads the sensors at rest on level ground before take-off. Their random streams continue in the flight.
 control::Alignment Avionics::align(double heading_rad, double surveyed_heading_rad) {
   control::GroundAlignment alignment(config_.imu, config_.magnetometer);
   imu_.observe(Eigen::Vector3d::Zero(), -kGravityMps2 * Eigen::Vector3d::UnitZ());
@@ -92,7 +91,7 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySenso
   if (due(imu_.period())) navigation_.predict(imu_reading_.emplace(read_imu(t_ns)));
   if (height_sensor_.observes(tick)) {
     height_sensor_.observe(
-        sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_beside));
+        sensors::nearest_echo_m(config_.height_sensor, truth.height_above_surface_m, truth.height_at_offset));
   }
   if (height_sensor_.due(tick)) {
     const std::optional<double> height_m = failures_.deliver(Instrument::height_sensor, t_ns, height_sensor_.read());
@@ -113,7 +112,7 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySenso
   if (due(gps_.period())) {
     if (const std::optional<sensors::GpsFix> fix = read_gps(t_ns)) navigation_.correct_gps(*fix);
   }
-  if (range_finder_) sense_range(t_ns, tick, truth);
+  if (range_finder_) sense_beam(t_ns, tick, truth);
   if (!flow_velocity) return;
   if (const std::optional<VelocityReading> reading = flow_velocity(navigation_.estimate())) {
     const Eigen::Vector3d read(reading->v_WB_B_xy_meas.x(), reading->v_WB_B_xy_meas.y(), 0.0);
@@ -122,7 +121,7 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySenso
   }
 }
 
-/// The flight computer cannot do without: an IMU that is off reads 0.
+/// An IMU that is off reads 0, because the flight computer needs its readings.
 sensors::ImuReading Avionics::read_imu(int64_t t_ns) {
   const sensors::ImuReading read = imu_.read();
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
@@ -138,8 +137,8 @@ std::optional<sensors::GpsFix> Avionics::read_gps(int64_t t_ns) {
   return p && v ? std::optional(sensors::GpsFix{*p, *v}) : std::nullopt;
 }
 
-/// Casts the beam only on the ticks on which a reading begins.
-void Avionics::sense_range(int64_t t_ns, int64_t tick, const SensedTruth& truth) {
+/// Casts the beam only on ticks on which a measurement starts.
+void Avionics::sense_beam(int64_t t_ns, int64_t tick, const SensedTruth& truth) {
   if (range_finder_->observes(tick)) {
     const RigidBodyState& body = truth.body;
     const Eigen::Vector3d from_W = body.p_WB + body.q_WB * config_.range_finder.p_BI_m;

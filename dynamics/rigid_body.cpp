@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -29,8 +30,8 @@ MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& princ
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.I_B).eigenvalues();
   if (!mass.I_B.allFinite() || !(moments[0] > 0.0) || moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) {
     throw std::invalid_argument(
-        "no body has this inertia: its principal moments must be positive and none larger than the sum of the other "
-        "two, got " +
+        "inertia is not that of a rigid body: principal moments must be positive and at most the sum of the other two, "
+        "got " +
         std::to_string(moments[0]) + ", " + std::to_string(moments[1]) + ", " + std::to_string(moments[2]) + " kg m2");
   }
   mass.I_B_inv = mass.I_B.inverse();
@@ -59,6 +60,12 @@ Eigen::Vector3d to_roll_pitch_heading(const Eigen::Quaterniond& q_WB) {
   return {std::atan2(R_WB(2, 1), R_WB(2, 2)), std::asin(std::clamp(-R_WB(2, 0), -1.0, 1.0)),
           std::atan2(R_WB(1, 0), R_WB(0, 0))};
 }
+
+double tilt_rad(const Eigen::Vector3d& rpy) {
+  return std::acos(std::clamp(std::cos(rpy.x()) * std::cos(rpy.y()), -1.0, 1.0));
+}
+
+double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
 Eigen::Quaterniond from_roll_pitch_heading(double roll_rad, double pitch_rad, double heading_rad) {
   return Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *

@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-/// Exact motion of one rigid body. Frames: W north-east-down, B forward-right-down with its origin at the mass center.
+#include "sim/fields/field.h"
+
+/// Motion of one rigid body. Frames: W north-east-down, B forward-right-down with its origin at the mass center.
 namespace hedgehop::dynamics {
 
 inline constexpr double kGravityMps2 = 9.81;  ///< along W's z
@@ -18,7 +20,7 @@ struct RigidBodyState {
 /// A rigid body's state or its time derivative as one column: p, q (scalar first), v, w.
 using RigidBodyVector = Eigen::Matrix<double, 13, 1>;
 RigidBodyVector to_vector(const RigidBodyState& state);
-/// @param x  its quaternion has any positive norm and is taken as it stands.
+/// @param x  the norm of its quaternion is positive and is kept.
 RigidBodyState to_rigid_body(const RigidBodyVector& x);
 
 struct MassProperties {
@@ -27,8 +29,8 @@ struct MassProperties {
   Eigen::Matrix3d I_B_inv = Eigen::Matrix3d::Identity();  ///< its inverse
 };
 /// @param principal_kgm2  I_xx, I_yy, I_zz. @param xz_kgm2  product of inertia I_xz (off-diagonal elements are -I_xz).
-/// Throws std::invalid_argument unless mass and inertia can belong to a body: positive, principal moments that obey the
-/// triangle inequality.
+/// Throws std::invalid_argument unless mass and principal moments are positive and the moments obey the triangle
+/// inequality.
 MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& principal_kgm2, double xz_kgm2);
 
 /// Returns the time derivative of the state under gravity and the loads.
@@ -37,8 +39,39 @@ MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& princ
 RigidBodyVector derivative(const MassProperties& mass, const RigidBodyState& state, const Eigen::Vector3d& f_B,
                            const Eigen::Vector3d& t_B);
 
-/// Roll, pitch and heading (3-2-1), rad. @param q  unit.
+/// Returns roll, pitch and heading (3-2-1), rad. @param q_WB  unit.
 Eigen::Vector3d to_roll_pitch_heading(const Eigen::Quaterniond& q_WB);
 Eigen::Quaterniond from_roll_pitch_heading(double roll_rad, double pitch_rad, double heading_rad);
+/// Returns the angle between the body's z axis and the vertical, rad. @param roll_pitch_heading_rad  3-2-1.
+double tilt_rad(const Eigen::Vector3d& roll_pitch_heading_rad);
+/// Returns the same angle in -pi..pi, rad.
+double wrap_angle(double angle_rad);
+
+struct MassConfig {
+  double mass_kg = 8.2;
+  Eigen::Vector3d inertia_kgm2{0.18, 0.34, 0.28};
+  double inertia_xz_kgm2 = 0.0;
+};
+template <class Visitor>
+void describe(Visitor& v, fields::ConfigOf<MassConfig> auto& c) {
+  v("mass", c.mass_kg, {.unit = "kg", .above = 0.0, .meaning = "mass, ready to fly"});
+  v("inertia", c.inertia_kgm2,
+    {.unit = "kg m2", .above = 0.0, .meaning = "moments of inertia about roll, pitch and yaw, at the mass center"});
+  v("inertia_xz", c.inertia_xz_kgm2, {.unit = "kg m2", .meaning = "product of inertia I_xz"});
+}
+
+/// Returns x one step later by the classical fourth-order Runge-Kutta method.
+/// @param t_s   time of x. @param h_s  step.
+/// @param rate  pure, `Vector rate(double t_s, const Vector& x)`.
+/// Source: [HairerNorsettWanner1993] sec. II.1.
+template <int N, class Rate>
+Eigen::Matrix<double, N, 1> rk4_step(const Eigen::Matrix<double, N, 1>& x, double t_s, double h_s, const Rate& rate) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  const Vector k1 = rate(t_s, x);
+  const Vector k2 = rate(t_s + 0.5 * h_s, Vector(x + 0.5 * h_s * k1));
+  const Vector k3 = rate(t_s + 0.5 * h_s, Vector(x + 0.5 * h_s * k2));
+  const Vector k4 = rate(t_s + h_s, Vector(x + h_s * k3));
+  return x + h_s / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
 
 }  // namespace hedgehop::dynamics

@@ -7,8 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/actuator_fault.h"
-#include "dynamics/controls.h"
+#include "dynamics/actuators.h"
 #include "dynamics/helicopter/helicopter_flight.h"
 #include "dynamics/hull.h"
 #include "dynamics/multicopter/multicopter_flight.h"
@@ -16,39 +15,39 @@
 
 namespace hedgehop::dynamics {
 
-/// The vehicles that can fly; the YAML key `type` picks one.
+/// Configuration of any vehicle. The YAML key `type` selects one.
 using VehicleConfig = std::variant<helicopter::HelicopterConfig, multicopter::MulticopterConfig>;
 
-/// Returns the convex pieces a vehicle is made of, in B. Throws std::invalid_argument when one has no size.
+/// Returns the convex parts of a vehicle, in B. Throws std::invalid_argument if a part has no size.
 std::vector<HullPart> hull(const VehicleConfig& config);
 
-/// One vehicle in flight, of any kind: fourth-order Runge-Kutta steps of a pure derivative.
+/// One vehicle of any kind in flight, integrated by fourth-order Runge-Kutta steps.
 class Vehicle {
  public:
-  /// In a trimmed hover at W's origin until reset(). Throws std::invalid_argument on values that cannot be, or that
+  /// Starts in a trimmed hover at W's origin. Throws std::invalid_argument if values are out of range or the vehicle
   /// cannot hover.
   explicit Vehicle(const VehicleConfig& config);
 
-  /// Puts the vehicle into a trimmed hover over ground, servos included.
+  /// Puts the vehicle, with its servos, into a trimmed hover relative to the ground.
   /// @param p_WB  m. @param heading_rad  from north to east. @param wind_W  velocity of the air in W, m/s.
-  /// Throws std::invalid_argument when the vehicle cannot hover there.
+  /// Throws std::invalid_argument if the vehicle cannot hover in this wind.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
 
-  /// Moves on by dt; command and wind are held over the step. Allocates no memory.
+  /// Advances by dt; command and wind are constant during the step. Allocates no memory.
   /// @param dt_s  > 0, at most 0.002 for vehicles of the default sizes (a helicopter's fastest motion decays at 40
   /// 1/s).
   void step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
-  /// What ails its actuators from now on; reset() leaves it.
+  /// Sets the actuators' faults from now on; reset() keeps them.
   void set_faults(std::span<const ActuatorFault> faults);
 
   const RigidBodyState& body() const;
-  /// What an ideal accelerometer at B reads, in B, m/s2: (0, 0, -g) level at rest.
+  /// Specific force at B, in B, m/s2: (0, 0, -g) level at rest.
   const Eigen::Vector3d& specific_force_B() const;
-  /// Where the actuators stand, in the vehicle's own units.
+  /// Actuator positions, in the vehicle's units.
   Controls actuators() const;
-  /// What its controls are, with their units as a table's head has them ("collective_rad").
+  /// Names of the controls with their units, as in table headings ("collective_rad").
   const std::array<std::string_view, kControlAxes>& control_names() const;
-  /// False while a helicopter descends into its own wake, where its rotor model is not to be trusted.
+  /// False while a helicopter descends into its own wake, outside the range of its rotor model.
   bool within_validity() const;
 
  private:

@@ -7,7 +7,7 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-constexpr double kLeastTiltSigmaRad = 1e-5;  // no sensor is so good; keeps the covariance of perfect ones regular
+constexpr double kMinTiltSigmaRad = 1e-5;  // keeps the covariance regular with perfect sensors
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void GroundAlignment::add(const sensors::ImuReading& reading) {
 
 void GroundAlignment::add_heading(double heading_meas_rad) {
   if (heading_count_++ == 0) first_heading_rad_ = heading_meas_rad;
-  heading_sum_rad_ += sensors::wrap_angle(heading_meas_rad - first_heading_rad_);
+  heading_sum_rad_ += wrap_angle(heading_meas_rad - first_heading_rad_);
 }
 
 Alignment GroundAlignment::result(double surveyed_heading_rad, double surveyed_sigma_rad) const {
@@ -40,18 +40,18 @@ Alignment GroundAlignment::result(double surveyed_heading_rad, double surveyed_s
 
   Alignment a;
   a.gyro_bias_est = gyro_sum_ / imu_count_;
-  // Of the bias as it stands now: it has wandered since its mean.
+  // Of the present bias, which has wandered since its mean.
   a.gyro_bias_sigma_radps =
       std::sqrt(square(gyro.sigma) * gyro.end_less_mean(duration_s) + square(imu_.gyro_noise_density) / duration_s);
 
-  // At rest f = (bias_x, bias_y, -g), so the roll errs by bias_y / g and the pitch by -bias_x / g.
+  // At rest f = (bias_x, bias_y, -g): the roll error is bias_y / g, the pitch error -bias_x / g.
   const double mean_bias2 = square(imu_.accelerometer_offset_mps2) +
                             square(accelerometer.sigma) * accelerometer.mean_with_mean(duration_s) +
                             square(imu_.accelerometer_noise_density) / duration_s;
   const double mean_with_bias =
       square(imu_.accelerometer_offset_mps2) + square(accelerometer.sigma) * accelerometer.mean_with_end(duration_s);
   a.accelerometer_bias_sigma_mps2 = std::hypot(imu_.accelerometer_offset_mps2, accelerometer.sigma);
-  const double tilt2 = mean_bias2 / square(kGravityMps2) + square(imu_.misalignment_rad) + square(kLeastTiltSigmaRad);
+  const double tilt2 = mean_bias2 / square(kGravityMps2) + square(imu_.misalignment_rad) + square(kMinTiltSigmaRad);
   a.attitude_by_accelerometer(0, 1) = mean_with_bias / kGravityMps2;
   a.attitude_by_accelerometer(1, 0) = -mean_with_bias / kGravityMps2;
 
@@ -59,14 +59,12 @@ Alignment GroundAlignment::result(double surveyed_heading_rad, double surveyed_s
   a.compass_sigma_rad = magnetometer_.offset_rad;
   if (heading_count_ > 0) {
     heading_rad = first_heading_rad_ + heading_sum_rad_ / heading_count_;
-    heading2 = square(magnetometer_.offset_rad) + square(magnetometer_.noise_rad) / heading_count_ +
-               square(kLeastTiltSigmaRad);
+    heading2 =
+        square(magnetometer_.offset_rad) + square(magnetometer_.noise_rad) / heading_count_ + square(kMinTiltSigmaRad);
     a.attitude_by_compass.z() = -square(magnetometer_.offset_rad);
   }
   a.attitude_covariance.diagonal() << tilt2, tilt2, heading2;
-  a.q_WB_est = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-               Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+  a.q_WB_est = from_roll_pitch_heading(roll_rad, pitch_rad, heading_rad);
   return a;
 }
 

@@ -17,12 +17,12 @@ constexpr int kIntegrals = 4;
 constexpr int kIntegrated[kIntegrals] = {HoverModel::kForward, HoverModel::kRight, HoverModel::kBelow,
                                          HoverModel::kHeading};
 
-/// Deviations that count alike in a design (weights are their inverse squares).
+/// Deviations of equal cost in a design; the weights are their inverse squares.
 struct Acceptable {
   double velocity_mps, climb_mps, tilt_rad, heading_rad, rate_radps, below_m;
 };
-// Chosen so that the reference flight reaches a speed within about a second without overshoot, that the vehicle holds
-// to it about as stiffly, and that the nose stays put when the tail rotor meets a side wind.
+// Chosen so that the reference flight reaches a speed within about one second without overshoot, the vehicle follows it
+// about as stiffly, and the heading holds in a side wind on the tail rotor.
 constexpr Acceptable kPlan{
     .velocity_mps = 0.4, .climb_mps = 0.5, .tilt_rad = 0.3, .heading_rad = 0.05, .rate_radps = 1.0, .below_m = 0.25};
 constexpr Acceptable kHold{
@@ -46,9 +46,9 @@ DesignMatrix input_weights(const Controls& acceptable) {
   return DesignVector(acceptable.array().square().inverse()).asDiagonal();
 }
 
-Eigen::Vector2d clamp_norm(const Eigen::Vector2d& v, double longest) {
+Eigen::Vector2d clamp_norm(const Eigen::Vector2d& v, double max_norm) {
   const double length = v.norm();
-  return length > longest ? Eigen::Vector2d(v * (longest / length)) : v;
+  return length > max_norm ? Eigen::Vector2d(v * (max_norm / length)) : v;
 }
 
 Eigen::Vector2d rotate(double angle_rad, const Eigen::Vector2d& v) { return Eigen::Rotation2Dd(angle_rad) * v; }
@@ -81,11 +81,11 @@ void Autopilot::design(double dt_s) {
   hold_slopes_ = slopes(K_hold_);
 }
 
-/// Steady flight of the model at a velocity: its attitude, hidden states and controls.
+/// Solves for the attitude, hidden states and controls of the model's steady flight, per velocity.
 void Autopilot::solve_cruise() {
   const DesignMatrix& A = model_.motion.A;
   const Eigen::Index n = A.rows(), hidden = n - HoverModel::kHidden;
-  // Unknown: roll and pitch, the hidden states, the controls. The distance below the set altitude drops out.
+  // Unknown: roll and pitch, the hidden states, the controls. The altitude error drops out.
   Eigen::MatrixXd unknown(n, 2 + hidden + kControlAxes);
   unknown << A.middleCols(HoverModel::kRollAngle, 2), A.rightCols(hidden), model_.motion.B;
   const Eigen::MatrixXd found = unknown.completeOrthogonalDecomposition().solve(-A.leftCols(2));
@@ -158,15 +158,15 @@ Autopilot::Target Autopilot::target(const HoverSetpoint& s, const NavigationEsti
     anchor_->p_WB = now.p_WB_est.head<2>();
   }
   const double turn = std::clamp(s.yaw_rate_radps, -config_.yaw_rate_limit_radps, config_.yaw_rate_limit_radps);
-  anchor_->heading_rad = sensors::wrap_angle(anchor_->heading_rad + turn * dt_s_);
+  anchor_->heading_rad = wrap_angle(anchor_->heading_rad + turn * dt_s_);
   Target out{.altitude_m = anchor_->altitude_m, .heading_rad = anchor_->heading_rad};
   if (anchor_->stopped) out.v_WB_W = velocity_towards(anchor_->p_WB, now.p_WB_est.head<2>());
   return out;
 }
 
-/// Towards a point, slowing down so that half the greatest acceleration stops there.
+/// Returns a velocity towards a point, so that half the maximum acceleration stops the vehicle there.
 Eigen::Vector2d Autopilot::velocity_towards(const Eigen::Vector2d& p_WG, const Eigen::Vector2d& p_WB) const {
-  constexpr double kSeparation = 4.0;  // how much slower than the velocity's the position's motion is
+  constexpr double kSeparation = 4.0;  // bandwidth of velocity over that of position
   const double velocity_bandwidth = kGravityMps2 * plan_slopes_.tilt_per_mps.cwiseAbs().minCoeff();
   const Eigen::Vector2d way = p_WG - p_WB;
   const double distance_m = way.norm();
@@ -181,7 +181,7 @@ Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& 
   const Target target = std::visit([&](const auto& s) { return this->target(s, now); }, setpoint);
 
   DesignVector state = state_of(now);
-  if (target.attitude) reference_.head<2>() = state.head<2>();  // there is no velocity to follow
+  if (target.attitude) reference_.head<2>() = state.head<2>();  // no velocity to follow
   const Controls planned = plan(target);
   const Controls wanted = model_.trim + planned + hold(state, planned, target.attitude);
   const Controls given = wanted.cwiseMax(model_.lowest).cwiseMin(model_.highest);
@@ -192,8 +192,8 @@ Controls Autopilot::control(const Setpoint& setpoint, const NavigationEstimate& 
   return given;
 }
 
-/// The estimate and the predicted hidden states as the model has them: velocities in the frame of the estimated
-/// heading.
+/// Returns the model's state: the estimate, with velocities in the frame of the estimated heading, and the predicted
+/// hidden states.
 DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
   const Eigen::Vector3d rpy = to_roll_pitch_heading(now.q_WB_est);
   const Eigen::Vector3d v_WB_W = now.q_WB_est * now.v_WB_B_est;
@@ -203,8 +203,8 @@ DesignVector Autopilot::state_of(const NavigationEstimate& now) const {
   return x;
 }
 
-/// Returns what the reference flight does about the target, within the limits: errors are cut to what makes the design
-/// ask for a limit.
+/// Returns the controls of the reference flight for a target. Errors are clamped so that the design stays within the
+/// limits.
 Controls Autopilot::plan(const Target& target) const {
   const AutopilotConfig& c = config_;
   DesignVector e = reference_;
@@ -223,49 +223,50 @@ Controls Autopilot::plan(const Target& target) const {
   }
   const double below_m = c.climb_rate_limit_mps / plan_slopes_.climb_per_m;
   e[HoverModel::kBelow] = std::clamp(reference_[HoverModel::kBelow] + target.altitude_m, -below_m, below_m);
-  const double off_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
+  const double max_error_rad = c.yaw_rate_limit_radps / plan_slopes_.turn_per_rad;
   e[HoverModel::kHeading] =
-      std::clamp(sensors::wrap_angle(reference_[HoverModel::kHeading] - target.heading_rad), -off_rad, off_rad);
+      std::clamp(wrap_angle(reference_[HoverModel::kHeading] - target.heading_rad), -max_error_rad, max_error_rad);
   return cruise - K_plan_ * e;
 }
 
-/// Returns what holds the vehicle to the reference flight, and moves the integrals on.
+/// Returns the controls that hold the vehicle to the reference flight, and advances the integrals.
 Controls Autopilot::hold(const DesignVector& state, const Controls& planned_controls, bool attitude) {
   const Eigen::Index n = state.size();
   const double heading = state[HoverModel::kHeading];
   DesignVector e(n + kIntegrals);
   e << state - reference_, integrals_;
   e.head<2>() = state.head<2>() - rotate(reference_[HoverModel::kHeading] - heading, reference_.head<2>());
-  e[HoverModel::kHeading] = sensors::wrap_angle(heading - reference_[HoverModel::kHeading]);
+  e[HoverModel::kHeading] = wrap_angle(heading - reference_[HoverModel::kHeading]);
   Eigen::Vector4d errors{e[HoverModel::kForward], e[HoverModel::kRight], e[HoverModel::kBelow],
                          e[HoverModel::kHeading]};
   if (attitude) e.segment<2>(n).setZero();
 
-  // Velocity errors and their integrals may not ask for more tilt than the reference flight leaves.
+  // Velocity errors and their integrals may use only the tilt that the reference flight leaves.
   const Eigen::Vector2d planned{reference_[HoverModel::kPitchAngle], reference_[HoverModel::kRollAngle]};
   const Eigen::Vector2d from_error = -hold_slopes_.tilt_per_mps.cwiseProduct(Eigen::Vector2d(e.head<2>()));
   const Eigen::Vector2d from_integral = -hold_slopes_.tilt_per_m.cwiseProduct(Eigen::Vector2d(e.segment<2>(n)));
   const Eigen::Vector2d wanted = planned + from_error + from_integral;
-  const bool tilted_out = wanted.norm() > config_.tilt_limit_rad;
-  if (tilted_out) {
+  const bool tilt_limited = wanted.norm() > config_.tilt_limit_rad;
+  if (tilt_limited) {
     const Eigen::Vector2d left = clamp_norm(wanted, config_.tilt_limit_rad) - planned - from_integral;
     e.head<2>() = -left.cwiseQuotient(hold_slopes_.tilt_per_mps);
   }
   const Controls u = -K_hold_ * e;
 
-  // Integrals stand still while they would only grow against a limit.
+  // Anti-windup: an integral does not grow while a limit holds.
   const Controls total = model_.trim + planned_controls + u;
-  const bool at_stop = (total.array() < model_.lowest.array()).any() || (total.array() > model_.highest.array()).any();
+  const bool saturated =
+      (total.array() < model_.lowest.array()).any() || (total.array() > model_.highest.array()).any();
   if (attitude) errors.head<2>().setZero();
   for (int i = 0; i < kIntegrals; ++i) {
     const bool grows = errors[i] * integrals_[i] > 0.0;
-    const bool limited = at_stop || (tilted_out && i < 2);
+    const bool limited = saturated || (tilt_limited && i < 2);
     if (!(limited && grows)) integrals_[i] += dt_s_ * errors[i];
   }
   return u;
 }
 
-/// The reference flight obeys the linear model; as it turns, its velocity over ground stays.
+/// The reference flight follows the linear model. As it turns, its velocity over ground is constant.
 void Autopilot::advance_reference(const Controls& u) {
   DesignVector x = reference_;
   x[HoverModel::kHeading] = 0.0;
@@ -273,7 +274,7 @@ void Autopilot::advance_reference(const Controls& u) {
   DesignVector next = step_.A * x + step_.B * u;
   next.head<2>() = rotate(-next[HoverModel::kHeading], next.head<2>());
   next[HoverModel::kBelow] += reference_[HoverModel::kBelow];
-  next[HoverModel::kHeading] = sensors::wrap_angle(next[HoverModel::kHeading] + reference_[HoverModel::kHeading]);
+  next[HoverModel::kHeading] = wrap_angle(next[HoverModel::kHeading] + reference_[HoverModel::kHeading]);
   reference_ = next;
 }
 

@@ -19,14 +19,14 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
   if (!hover) throw std::invalid_argument("the helicopter has no steady hover in still air");
   helicopter::LinearModel linear = linearize(model, *hover);
 
-  // From velocity in B to velocity in the level frame; at rest attitude does not enter.
+  // From velocity in B to velocity in the level frame. At rest, the attitude has no effect on it.
   Eigen::Matrix<double, L::kStates, L::kStates> T = Eigen::Matrix<double, L::kStates, L::kStates>::Identity();
   T.topLeftCorner<3, 3>() = from_roll_pitch_heading(hover->roll_rad, hover->pitch_rad, 0.0).toRotationMatrix();
   linear.A = (T * linear.A * T.transpose()).eval();
   linear.B = (T * linear.B).eval();
 
-  // Where each state of the linear model stands; a lumped stabilizer bar has none of its own.
-  std::vector<int> place(L::kStates);
+  // Index of each state of the linear model, -1 for unused ones: a lumped stabilizer bar has no states.
+  std::vector<int> index(L::kStates);
   const std::vector<std::pair<int, int>> named = {{L::kU, M::kForward},
                                                   {L::kV, M::kRight},
                                                   {L::kW, M::kDown},
@@ -36,11 +36,11 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
                                                   {L::kRollAngle, M::kRollAngle},
                                                   {L::kPitchAngle, M::kPitchAngle},
                                                   {L::kHeading, M::kHeading}};
-  for (const auto& [from, to] : named) place[static_cast<size_t>(from)] = to;
+  for (const auto& [from, to] : named) index[static_cast<size_t>(from)] = to;
   int size = M::kHidden;
   for (const int k : {L::kDiscBack, L::kDiscRight, L::kBarBack, L::kBarRight}) {
     const bool is_used = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
-    place[static_cast<size_t>(k)] = is_used ? size++ : -1;
+    index[static_cast<size_t>(k)] = is_used ? size++ : -1;
   }
   const int servos = size;
   size += 2 * kControlAxes;
@@ -51,10 +51,10 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
   DesignMatrix& A = out.motion.A = DesignMatrix::Zero(size, size);
   DesignMatrix& B = out.motion.B = DesignMatrix::Zero(size, kControlAxes);
   for (int i = 0; i < L::kStates; ++i) {
-    const int row = place[static_cast<size_t>(i)];
+    const int row = index[static_cast<size_t>(i)];
     if (row < 0) continue;
     for (int j = 0; j < L::kStates; ++j) {
-      const int col = place[static_cast<size_t>(j)];
+      const int col = index[static_cast<size_t>(j)];
       if (col >= 0) A(row, col) = linear.A(i, j);
     }
     for (int j = 0; j < L::kInputs; ++j) A(row, servos + 2 * j) = linear.B(i, j);
@@ -93,23 +93,23 @@ HoverModel make(const multicopter::MulticopterConfig& config) {
   constexpr int kSize = M::kHidden + static_cast<int>(kControlAxes);
   out.motion.A = DesignMatrix::Zero(kSize, kSize);
   out.motion.B = DesignMatrix::Zero(kSize, kControlAxes);
-  // A level hover: velocities in B are those in the level frame.
-  constexpr std::array<int, L::kStates> kPlace = {
+  // In a level hover, velocities in B equal those in the level frame.
+  constexpr std::array<int, L::kStates> kIndex = {
       M::kForward,    M::kRight,   M::kDown,   M::kP,          M::kQ,          M::kR,         M::kRollAngle,
       M::kPitchAngle, M::kHeading, M::kHidden, M::kHidden + 1, M::kHidden + 2, M::kHidden + 3};
   for (int i = 0; i < L::kStates; ++i) {
-    for (int j = 0; j < L::kStates; ++j) out.motion.A(kPlace[i], kPlace[j]) = linear.A(i, j);
-    for (int j = 0; j < kControlAxes; ++j) out.motion.B(kPlace[i], j) = linear.B(i, j);
+    for (int j = 0; j < L::kStates; ++j) out.motion.A(kIndex[i], kIndex[j]) = linear.A(i, j);
+    for (int j = 0; j < kControlAxes; ++j) out.motion.B(kIndex[i], j) = linear.B(i, j);
   }
   out.motion.A(M::kBelow, M::kDown) = 1.0;
 
-  const Controls most = multicopter::authority(model);
+  const Controls limit = multicopter::authority(model);
   out.trim = multicopter::wrench(model, hover->state.speeds_radps);
-  out.highest = most;
-  out.lowest = -most;
+  out.highest = limit;
+  out.lowest = -limit;
   out.lowest[kHeave] = 0.0;
-  // Chosen: a quarter of the torque at hand, thrust for 3 m/s2.
-  out.acceptable = 0.25 * most;
+  // Chosen: a quarter of the available torque, thrust for 3 m/s2.
+  out.acceptable = 0.25 * limit;
   out.acceptable[kHeave] = 3.0 * model.mass.mass_kg;
   return out;
 }

@@ -7,9 +7,9 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-/// e^M by scaling, a Taylor series and squaring.
+/// Returns e^M by scaling, a Taylor series and squaring.
 DesignMatrix exponential(const DesignMatrix& M) {
-  constexpr int kTerms = 12;  // relative rest of the series below 1e-16 for a norm of 1/4
+  constexpr int kTerms = 12;  // relative remainder of the series below 1e-16 for a norm of 1/4
   const double norm = M.cwiseAbs().rowwise().sum().maxCoeff();
   const int squarings = norm > 0.25 ? static_cast<int>(std::ceil(std::log2(norm / 0.25))) : 0;
   const DesignMatrix scaled = M / std::exp2(squarings);
@@ -41,10 +41,10 @@ DesignMatrix lqr_gain(const LinearSystem& system, const DesignMatrix& Q, const D
   DesignMatrix G = system.B * R.partialPivLu().solve(DesignMatrix(system.B.transpose()));
   DesignMatrix H = Q;
 
-  constexpr int kMostDoublings = 60;
+  constexpr int kMaxDoublings = 60;
   constexpr double kConverged = 1e-12;  // relative; the error squares with every doubling
   bool converged = false;
-  for (int i = 0; i < kMostDoublings && !converged && H.allFinite(); ++i) {
+  for (int i = 0; i < kMaxDoublings && !converged && H.allFinite(); ++i) {
     const DesignMatrix W = I + G * H;
     const Eigen::PartialPivLU<DesignMatrix> lu(W);
     const DesignMatrix V1 = lu.solve(A);

@@ -10,16 +10,15 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-// Where each part of the error state stands: attitude (small rotation in B), velocity and position in W, biases of
-// gyros and accelerometers, wandering horizontal error of the satellite position, compass offset, wandering
-// error of the barometer.
+// Index of each part of the error state: attitude (small rotation in B), velocity and position in W, biases of gyros
+// and accelerometers, wandering horizontal error of the satellite position, compass offset, wandering barometer error.
 constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17, kBarometer = 18;
 
-constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: a hover before take-over
-constexpr double kGate = 9.0;           // of an innovation's squared ratio to its sigma; beyond it the weight falls
-constexpr int kJumpReadings = 3;        // readings that must agree before another surface is accepted
-constexpr double kCoastAfterS = 1.0;    // without any velocity or position ...
-constexpr double kCoastSigmaMps = 3.0;  // ... the aircraft is taken to fly no faster than about this, once a second
+constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: hover at the start
+constexpr double kGate = 9.0;                      // squared ratio of innovation to sigma above which the weight falls
+constexpr int kJumpReadings = 3;                   // agreeing readings required to accept another surface
+constexpr double kCoastAfterS = 1.0;               // time without a velocity or position, after which ...
+constexpr double kCoastSigmaMps = 3.0;             // ... the speed is assumed below about this, once per second
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;
@@ -80,7 +79,7 @@ void Navigation::predict(const sensors::ImuReading& imu) {
   last_imu_ = imu;
   w_WB_B_ = imu.w_WB_B_meas - gyro_bias_;
   if (!first) {
-    // Means over the step by the trapezoidal rule, specific force rotated by the attitude halfway.
+    // Means over the step by the trapezoidal rule; the specific force is rotated by the attitude at mid-step.
     const Eigen::Vector3d w = 0.5 * (last.w_WB_B_meas + imu.w_WB_B_meas) - gyro_bias_;
     const Eigen::Vector3d f = 0.5 * (last.specific_force_B_meas + imu.specific_force_B_meas) - accelerometer_bias_;
     const Eigen::Matrix3d R_WB = (q_WB_ * rotation(0.5 * dt_s_ * w)).toRotationMatrix();
@@ -135,7 +134,7 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
   P_(kBarometer, kBarometer) += square(barometer.added_sigma(dt_s_));
 }
 
-/// One scalar measurement: innovation = measured - predicted from the state without the gathered correction.
+/// Applies one scalar measurement. @param innovation  measured - predicted, from the state without `correction_`.
 void Navigation::correct(const Row& H, double innovation, double variance) {
   const Column PH = P_ * H.transpose();
   const double S = H.dot(PH) + variance;
@@ -144,7 +143,7 @@ void Navigation::correct(const Row& H, double innovation, double variance) {
   P_.noalias() -= K * PH.transpose();
 }
 
-/// Moves the gathered correction into the state. Source: [Sola2017] eqs. (282)-(283).
+/// Moves the accumulated correction into the state. Source: [Sola2017] eqs. (282)-(283).
 void Navigation::inject() {
   q_WB_ = (q_WB_ * rotation(correction_.segment<3>(kTheta))).normalized();
   v_WB_W_ += correction_.segment<3>(kV);
@@ -172,8 +171,8 @@ void Navigation::correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double 
     H.segment<3>(kTheta) = by_attitude.row(i);
     H.segment<3>(kV) = R_BW.row(i);
     const double innovation = v_WB_B_xy_meas[i] - v_WB_B[i];
-    // Beyond the gate a measurement weighs less the farther off it is, but never nothing: the filter cannot lock itself
-    // out.
+    // Beyond the gate, the weight of a measurement falls with its innovation but stays positive, so that the filter can
+    // recover from a wrong state.
     const double S = H * P_ * H.transpose() + square(sigma_mps);
     const double excess = std::max(1.0, square(innovation) / (kGate * S));
     correct(H, innovation, square(sigma_mps) + S * (excess - 1.0));
@@ -184,14 +183,14 @@ void Navigation::correct_velocity(const Eigen::Vector2d& v_WB_B_xy_meas, double 
 
 void Navigation::correct_gps(const sensors::GpsFix& fix) {
   const sensors::GpsConfig& gps = sensors_.gps;
-  const Past& then = history_[next_];  // the oldest: a latency ago
+  const Past& then = history_[next_];  // the oldest: one latency ago
   for (int i = 0; i < 2; ++i) {
     Row H = Row::Zero();
     H[kP + i] = H[kWander + i] = 1.0;
     correct(H, fix.p_WB_W_meas[i] - then.p_WB[i] - gps_wander_m_[i], square(gps.noise_m));
   }
-  // The wandering altitude error is no state; as white noise of the same strength at low frequency it weighs as little
-  // as it should.
+  // The wandering altitude error is not a state. White noise of the same density at low frequency gives it the correct
+  // weight.
   const double white = 2.0 * gps.wander_time_s * gps.rate_hz;
   Row H = Row::Zero();
   H[kP + 2] = 1.0;
@@ -211,13 +210,13 @@ void Navigation::correct_heading(double heading_meas_rad) {
   H[kTheta + 1] = std::sin(rpy[0]) / std::cos(rpy[1]);
   H[kTheta + 2] = std::cos(rpy[0]) / std::cos(rpy[1]);
   H[kCompass] = 1.0;
-  const double innovation = sensors::wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
+  const double innovation = wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
   correct(H, innovation, square(sensors_.magnetometer.noise_rad));
   inject();
 }
 
-/// A reading is a height above the ground where it can be, else above the surface known to be below; when it is neither
-/// and the next ones agree, the surface has changed and the altitude has not.
+/// A reading is the height above the ground if it fits, otherwise above the known surface below. If it fits neither and
+/// the next readings agree, the surface has changed and the altitude has not.
 void Navigation::correct_height(double height_meas_m) {
   last_height_m_ = height_meas_m;
   const double altitude_m = -p_WB_.z();
@@ -243,9 +242,9 @@ void Navigation::correct_altitude(double innovation_m, double variance_m2) {
   Row H = Row::Zero();
   H[kP + 2] = -1.0;
   correct(H, innovation_m, variance_m2);
-  // What is unknown of the surface and the sensor's offset stays unknown, however often it is measured.
-  const double stays_m = std::hypot(surface_sigma_m_, sensors_.height_sensor.ranger.offset_m);
-  P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(stays_m));
+  // Repeated readings do not reduce the uncertainty of the surface and of the sensor's offset.
+  const double min_sigma_m = std::hypot(surface_sigma_m_, sensors_.height_sensor.ranger.offset_m);
+  P_(kP + 2, kP + 2) = std::max(P_(kP + 2, kP + 2), square(min_sigma_m));
   inject();
 }
 

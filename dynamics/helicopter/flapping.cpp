@@ -30,12 +30,12 @@ Eigen::Vector4d derivative(const FlappingModel& m, const FlapState& flap, const 
   const double mu = Eigen::Vector2d(in.forward_ratio, in.right_ratio).norm();
   const double D_mu = speed_flapping(m, in.collective_rad, in.inflow_ratio);
   const double D_z = heave_flapping(m, mu);
-  const double blown_back = D_mu * in.forward_ratio + D_z * in.down_ratio;
-  const double blown_right = -D_mu * in.right_ratio;
+  const double flap_back = D_mu * in.forward_ratio + D_z * in.down_ratio;
+  const double flap_right = -D_mu * in.right_ratio;
 
-  // The tilt the disc is drawn to by air, stick and bar; it lags behind, and behind the shaft's rotation.
-  double a_goal = blown_back + m.longitudinal_gain * in.longitudinal_rad;
-  double b_goal = blown_right + m.lateral_gain * in.lateral_rad;
+  // Steady tilt by air, cyclic and bar. The disc lags behind it, and behind the rotation of the shaft.
+  double a_goal = flap_back + m.longitudinal_gain * in.longitudinal_rad;
+  double b_goal = flap_right + m.lateral_gain * in.lateral_rad;
   Eigen::Vector2d bar_rate = Eigen::Vector2d::Zero();
   if (m.explicit_bar) {
     a_goal += m.mixing * c + m.clockwise * m.cross_coupling * b;
@@ -47,16 +47,16 @@ Eigen::Vector4d derivative(const FlappingModel& m, const FlapState& flap, const 
 }
 
 Eigen::Vector2d steady_cyclic(const FlappingModel& m, FlapState& flap, const FlapInput& input) {
-  // What is missing for a standstill without cyclic and bar, shared out to blades and bar as the stick does.
-  FlapState bare{flap.back_rad, flap.right_rad, -m.bar_lag_s * input.pitch_radps, -m.bar_lag_s * input.roll_radps};
+  // Rates without cyclic, which the cyclic must cancel through blades and bar.
+  FlapState passive{flap.back_rad, flap.right_rad, -m.bar_lag_s * input.pitch_radps, -m.bar_lag_s * input.roll_radps};
   FlapInput hands_off = input;
   hands_off.lateral_rad = hands_off.longitudinal_rad = 0.0;
-  const Eigen::Vector4d drift = derivative(m, bare, hands_off);
+  const Eigen::Vector4d drift = derivative(m, passive, hands_off);
   const double longitudinal = -drift[0] * m.lag_s / (m.longitudinal_gain + m.mixing * m.bar_longitudinal_gain);
   const double lateral = -drift[1] * m.lag_s / (m.lateral_gain + m.mixing * m.bar_lateral_gain);
   if (m.explicit_bar) {
-    flap.bar_back_rad = bare.bar_back_rad + m.bar_longitudinal_gain * longitudinal;
-    flap.bar_right_rad = bare.bar_right_rad + m.bar_lateral_gain * lateral;
+    flap.bar_back_rad = passive.bar_back_rad + m.bar_longitudinal_gain * longitudinal;
+    flap.bar_right_rad = passive.bar_right_rad + m.bar_lateral_gain * lateral;
   }
   return {lateral, longitudinal};
 }

@@ -7,12 +7,12 @@
 #include <variant>
 
 #include "dynamics/helicopter/trim.h"
-#include "dynamics/integrator.h"
+#include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// HelicopterVector, then position and rate of each servo, then RotorSpeedState.
+/// Indices: HelicopterVector, then position and rate of each servo, then RotorSpeedState.
 constexpr int kServo = 17, kRotor = 25, kSize = 27;
 using FlightVector = Eigen::Matrix<double, kSize, 1>;
 
@@ -69,7 +69,7 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
   for (size_t i = 0; i < blades.size(); ++i) {
     if (blades[i] < servos_[i].lowest_rad || blades[i] > servos_[i].highest_rad) {
       throw std::invalid_argument("the helicopter cannot hover in this wind: " + std::string(kControlNames[i]) +
-                                  " must be " + std::to_string(blades[i]) + ", its servo's travel is " +
+                                  " must be " + std::to_string(blades[i]) + ", the range of its servo is " +
                                   std::to_string(servos_[i].lowest_rad) + " to " +
                                   std::to_string(servos_[i].highest_rad));
     }
@@ -91,14 +91,14 @@ void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& w
   for (const ActuatorFault& fault : faults_) {
     ServoState& servo = state_.servos[fault.actuator];
     if (fault.kind == ActuatorFault::Kind::stuck) servo.rate_radps = 0.0;
-    targets[fault.actuator] = followed(fault, targets[fault.actuator], servo.position_rad);
+    targets[fault.actuator] = faulty_command(fault, targets[fault.actuator], servo.position_rad);
   }
   const auto rate = [&](double, const FlightVector& x) {
     const HelicopterFlightState state = to_flight(x);
     FlightVector dx;
     dx.tail<2>().setZero();
     if (engine_) {
-      // The body turns against what the rotors gain in speed.
+      // The reaction torque of the rotors' acceleration acts on the body.
       const HelicopterModel model = at_speed(model_, state.rotor.speed_radps);
       HelicopterLoads loads = helicopter_loads(model, state.airframe, blade_angles(state), wind_W);
       dx.tail<2>() = derivative(*engine_, model_.main_rotor.speed_radps, state.rotor,

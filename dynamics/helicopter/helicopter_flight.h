@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/actuator_fault.h"
-#include "dynamics/helicopter/blade_angles.h"
+#include "dynamics/actuators.h"
+#include "dynamics/helicopter/blade_servos.h"
 #include "dynamics/helicopter/helicopter.h"
 
 namespace hedgehop::dynamics::helicopter {
 
-/// Airframe, the servos that move its blades, in the order of BladeAngles, and the speed of its rotors.
+/// State of airframe, servos (in the order of BladeAngles) and rotor speed.
 struct HelicopterFlightState {
   HelicopterState airframe;
   std::array<ServoState, 4> servos;
@@ -23,7 +23,7 @@ struct HelicopterFlightState {
 /// A helicopter in flight: constant model, explicit state.
 class HelicopterFlight {
  public:
-  /// Throws std::invalid_argument on values that cannot be.
+  /// Throws std::invalid_argument if a value is invalid.
   explicit HelicopterFlight(const HelicopterConfig& config);
 
   static constexpr std::array<std::string_view, kControlAxes> kControlNames = {"collective_rad", "lateral_rad",
@@ -43,7 +43,7 @@ class HelicopterFlight {
 
   const HelicopterModel& model() const { return model_; }
   const HelicopterFlightState& state() const { return state_; }
-  /// Goes on from a state. @param wind_W  velocity of the air in W at this instant, m/s.
+  /// Sets the state. @param wind_W  velocity of the air in W at this instant, m/s.
   void set_state(const HelicopterFlightState& state, const Eigen::Vector3d& wind_W);
 
  private:
@@ -57,7 +57,7 @@ class HelicopterFlight {
   std::vector<ActuatorFault> faults_;
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
   bool within_validity_ = true;
-  std::optional<GovernedEngineConfig> engine_;  ///< none: the speed is constant
+  std::optional<GovernedEngineConfig> engine_;  ///< nullopt if the rotor speed is constant
 };
 
 }  // namespace hedgehop::dynamics::helicopter

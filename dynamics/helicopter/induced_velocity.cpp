@@ -7,12 +7,12 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-constexpr double kFreeAdvanceRatio = 0.1;  ///< forward flight that carries the wake away
-constexpr double kLimitGrowth = 10.0;      ///< m/s more of w_r for each m/s of V beyond that
-constexpr double kTolerance = 1e-7;        ///< a step so small, relative to the bracket, leaves its square of error
-constexpr int kMostIterations = 60;        ///< bisection alone would be done by then
+constexpr double kFreeAdvanceRatio = 0.1;  // above it, forward flight carries the wake away
+constexpr double kLimitGrowth = 10.0;      // growth of the limit of w_r with V beyond that, m/s per m/s
+constexpr double kTolerance = 1e-7;        // of a step, relative to the bracket; the error is its square
+constexpr int kMaxIterations = 60;         // enough for bisection alone
 
-/// Thrusts of both theories at one v_i, for a rotor whose blades push up (w_r + 2/3 Omega R theta > 0).
+/// Thrusts of both theories at one v_i, for a rotor with upward thrust (w_r + 2/3 Omega R theta > 0).
 struct Balance {
   double residual, newton_step, thrust;
   bool within_momentum_theory;
@@ -22,7 +22,7 @@ Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double i
   const double blade_thrust = disc.lift_nspm * (blade_mps - v_i);
   b.thrust = std::min(blade_thrust, disc.max_thrust_n);
 
-  // Where momentum theory leaves its range, its upflow stays at the border: so much of the hover inflow, or the free.
+  // Outside the range of momentum theory, its upflow stays at the limit.
   const double flow_per_thrust = 2.0 * disc.density_kgpm3 * disc.area_m2;
   const double hover_inflow2 = std::max(0.0, b.thrust) / flow_per_thrust;
   const double free = kLimitGrowth * std::max(0.0, inplane - kFreeAdvanceRatio * disc.tip_speed_mps);
@@ -34,7 +34,7 @@ Balance balance(const RotorDisc& disc, double blade_mps, double upflow, double i
   const double resultant2 = inplane * inplane + (w - v_i) * (w - v_i), resultant = std::sqrt(resultant2);
   const double momentum = flow_per_thrust * disc.efficiency;
   b.residual = momentum * v_i * resultant - b.thrust;
-  // Over the resultant, which is 0 only without flow along the disc: then the momentum's slope is, too.
+  // Divided by the resultant, which is 0 only without flow in the plane; the momentum's slope is then 0, too.
   const double blade_slope = blade_thrust < disc.max_thrust_n ? disc.lift_nspm : 0.0;
   const double slope = momentum * (resultant2 + v_i * (v_i - w)) + blade_slope * resultant;
   b.newton_step = resultant > 0.0 ? b.residual * resultant / slope : b.residual / blade_slope;
@@ -69,19 +69,19 @@ RotorDisc at_speed(RotorDisc disc, double ratio) {
 }
 
 Inflow solve_inflow(const RotorDisc& disc, double collective_rad, double upflow_mps, double inplane_mps) {
-  // A rotor that pushes down is one that pushes up, upside down.
+  // Downward thrust is solved as upward thrust of the inverted rotor.
   const double signed_blade_mps = upflow_mps + 2.0 / 3.0 * disc.tip_speed_mps * collective_rad;
   const double sign = signed_blade_mps < 0.0 ? -1.0 : 1.0;
   const double blade_mps = sign * signed_blade_mps;
   const double upflow = sign * upflow_mps;
 
-  // v_i lies between none and all of the flow through the blades; start from the hover of a rotor that does not move.
+  // v_i is between 0 and the flow through the blades. The initial guess is that of a hover.
   double low = 0.0, high = blade_mps;
   const double half = disc.lift_nspm / (4.0 * disc.density_kgpm3 * disc.area_m2 * disc.efficiency);
   double v_i = 2.0 * half * blade_mps / (half + std::sqrt(half * half + 2.0 * half * blade_mps) + 1e-300);
   v_i = std::min(v_i, blade_mps);
   Balance b = balance(disc, blade_mps, upflow, inplane_mps, v_i);
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     (b.residual > 0.0 ? high : low) = v_i;
     const bool last = std::abs(b.newton_step) <= kTolerance * blade_mps;
     v_i -= b.newton_step;

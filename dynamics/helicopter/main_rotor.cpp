@@ -8,7 +8,7 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// Lag of a flapping mass, s. Source: [Gavrilets2015] sec. on flapping.
+/// Returns the lag of a flapping mass, s. Source: [Gavrilets2015] sec. on flapping.
 double flapping_lag_s(double lock_number, double speed_radps) { return 16.0 / (lock_number * speed_radps); }
 
 void set_flybar(FlappingModel& model, const LumpedBarConfig& bar, double speed_radps, double /*density*/) {
@@ -37,8 +37,7 @@ void set_flybar(FlappingModel& model, const ExplicitBarConfig& bar, double speed
   model.bar_longitudinal_gain = bar.bar_longitudinal_gain;
   if (!(model.lateral_gain + model.mixing * model.bar_lateral_gain > 0.0) ||
       !(model.longitudinal_gain + model.mixing * model.bar_longitudinal_gain > 0.0)) {
-    throw std::invalid_argument(
-        "the cyclic must reach the disc, by the blades or by the bar: the gains of the flybar are 0");
+    throw std::invalid_argument("flybar: a gain of blades or bar must be above 0, so that the cyclic acts on the disc");
   }
 }
 
@@ -91,7 +90,7 @@ MainRotorLoads main_rotor_loads(const MainRotor& rotor, const FlapState& flap, c
   loads.inflow = solve_inflow(rotor.disc, blades.collective_rad, upflow, inplane);
   loads.power_w = shaft_power_w(rotor.disc, loads.inflow, upflow, inplane);
 
-  // The thrust stands on the disc; hub spring and torque act on the body.
+  // The thrust is normal to the disc; hub spring and torque act on the body.
   const double T = loads.inflow.thrust_n;
   loads.f_B = {-T * std::sin(a), T * std::sin(b), -T * std::cos(a) * std::cos(b)};
   loads.t_B = {loads.f_B.y() * h + rotor.hub_stiffness_nmprad * b, -loads.f_B.x() * h + rotor.hub_stiffness_nmprad * a,

@@ -13,10 +13,10 @@ Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps,
                            double shaft_power_w) {
   const double open = throttle(engine, set_radps, state);
   const double torque_nm =
-      (engine.max_power_w * open - shaft_power_w) / std::max(state.speed_radps, kSlowestRotor * set_radps);
-  const double missing = set_radps - state.speed_radps;
-  const bool at_stop = (open >= 1.0 && missing > 0.0) || (open <= 0.0 && missing < 0.0);
-  return {torque_nm / engine.inertia_kgm2, at_stop ? 0.0 : engine.integral_gain_prad * missing};
+      (engine.max_power_w * open - shaft_power_w) / std::max(state.speed_radps, kMinRotorSpeed * set_radps);
+  const double speed_error = set_radps - state.speed_radps;
+  const bool saturated = (open >= 1.0 && speed_error > 0.0) || (open <= 0.0 && speed_error < 0.0);
+  return {torque_nm / engine.inertia_kgm2, saturated ? 0.0 : engine.integral_gain_prad * speed_error};
 }
 
 }  // namespace hedgehop::dynamics::helicopter

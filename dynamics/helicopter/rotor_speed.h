@@ -6,12 +6,12 @@
 
 #include "sim/fields/field.h"
 
-/// What turns a helicopter's rotors, and how well it holds their speed.
+/// Engine and governor of a helicopter, and the speed of its rotors.
 namespace hedgehop::dynamics::helicopter {
 
 struct ConstantSpeedConfig {
   static constexpr std::string_view kName = "constant";
-  static constexpr std::string_view kMeaning = "held without fail, whatever power it takes";
+  static constexpr std::string_view kMeaning = "constant rotor speed at unlimited power";
 };
 template <class Visitor>
 void describe(Visitor&, const ConstantSpeedConfig&) {}
@@ -19,7 +19,7 @@ void describe(Visitor&, const ConstantSpeedConfig&) {}
 /// Defaults: the X-Cell .60 of [Gavrilets2015] table of parameters.
 struct GovernedEngineConfig {
   static constexpr std::string_view kName = "governed";
-  static constexpr std::string_view kMeaning = "engine of limited power behind a governor";
+  static constexpr std::string_view kMeaning = "engine of limited power with a governor";
   double max_power_w = 2000.0;
   double proportional_gain_sprad = 0.01;
   double integral_gain_prad = 0.02;
@@ -27,33 +27,32 @@ struct GovernedEngineConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<GovernedEngineConfig> auto& c) {
-  v("max_power", c.max_power_w, {.unit = "W", .above = 0.0, .meaning = "at the rotor's shaft, throttle open"});
+  v("max_power", c.max_power_w, {.unit = "W", .above = 0.0, .meaning = "power at the rotor shaft with open throttle"});
   v("proportional_gain", c.proportional_gain_sprad,
-    {.unit = "s/rad", .at_least = 0.0, .meaning = "throttle per speed that is missing"});
+    {.unit = "s/rad", .at_least = 0.0, .meaning = "throttle per speed error"});
   v("integral_gain", c.integral_gain_prad,
-    {.unit = "1/rad", .at_least = 0.0, .meaning = "throttle per angle that has been missed"});
+    {.unit = "1/rad", .at_least = 0.0, .meaning = "throttle per integral of the speed error"});
   v("inertia", c.inertia_kgm2,
-    {.unit = "kg m2", .above = 0.0, .meaning = "of all that rotates, reflected to the main rotor's shaft"});
+    {.unit = "kg m2", .above = 0.0, .meaning = "inertia of all rotating parts, referred to the main rotor shaft"});
 }
 using RotorSpeedConfig = std::variant<ConstantSpeedConfig, GovernedEngineConfig>;
 
-/// As a share of the set speed: slower rotors are computed at this speed. Chosen: a rotor that hardly turns has no
-/// first-order flapping.
-inline constexpr double kSlowestRotor = 0.1;
+/// Minimum rotor speed of the rotor model, as a share of the set speed. Chosen: first-order flapping is not valid for
+/// slower rotors.
+inline constexpr double kMinRotorSpeed = 0.1;
 
 struct RotorSpeedState {
   double speed_radps = 0.0;        ///< Omega of the main rotor
-  double integral_throttle = 0.0;  ///< what the governor's integral adds to the throttle
+  double integral_throttle = 0.0;  ///< integral part of the governor's throttle
 };
 
-/// Returns the governor's throttle, 0 closed to 1 open. @param set_radps  the speed it is to hold.
+/// Returns the governor's throttle, 0 closed to 1 open. @param set_radps  set speed.
 double throttle(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state);
 
-/// Returns the time derivative of (speed, integral throttle): inertia times acceleration is the engine's torque
-/// P_max throttle / Omega less that of the rotors; the integral rests while the throttle is at a stop that it pushes
-/// on.
+/// Returns the time derivative of (speed, integral throttle). Inertia times acceleration is the engine's torque,
+/// P_max throttle / Omega, minus that of the rotors. The integral is constant while the throttle saturates.
 /// @param shaft_power_w  of main and tail rotor. Source: [Gavrilets2015] sec. on the engine, drive train and governor.
-/// Differs: the body's yaw acceleration is left out.
+/// Differs: the body's yaw acceleration is neglected.
 Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
                            double shaft_power_w);
 

@@ -6,12 +6,13 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// Force on a wing section: lift at small angles, drag across, no more than the air's pressure on its area.
+/// Returns the normal force on a surface: lift at small angles plus cross-flow drag, limited by dynamic pressure times
+/// area.
 /// @param along, across  air speed along the chord (>= 0) and normal to the surface, m/s.
 double normal_force_n(double half_density, double area_m2, double lift_slope_prad, double along, double across) {
   const double force = -half_density * area_m2 * (lift_slope_prad * along + std::abs(across)) * across;
-  const double most = half_density * area_m2 * (along * along + across * across);
-  return std::clamp(force, -most, most);
+  const double limit = half_density * area_m2 * (along * along + across * across);
+  return std::clamp(force, -limit, limit);
 }
 
 }  // namespace

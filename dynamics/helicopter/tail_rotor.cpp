@@ -5,16 +5,16 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// Of the flow into the thrust over hover inflow. Chosen: a tail rotor's wake folds back in any brisk sideways flight,
-/// which pilots fly through; up to here momentum theory goes on as a fair mean.
-constexpr double kSidewaysLimit = 1.0;
+// Limit of w_r over hover inflow. Chosen: fast sideways flight puts a tail rotor into its own wake, which pilots fly
+// through; up to this limit, momentum theory is a fair mean.
+constexpr double kDescentLimit = 1.0;
 
 }  // namespace
 
 TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, double clockwise, double density_kgpm3) {
   TailRotor rotor;
   rotor.disc = make_rotor_disc(c, c.gear_ratio * main_speed_radps, density_kgpm3);
-  rotor.disc.descent_limit = kSidewaysLimit;
+  rotor.disc.descent_limit = kDescentLimit;
   rotor.clockwise = clockwise;
   rotor.thrust_fraction = c.thrust_fraction;
   rotor.arm_m = c.arm_m;
@@ -24,7 +24,7 @@ TailRotor make_tail_rotor(const TailRotorConfig& c, double main_speed_radps, dou
 
 TailRotorLoads tail_rotor_loads(const TailRotor& rotor, double collective_rad, const Eigen::Vector3d& v_air_B,
                                 const Eigen::Vector3d& w_WB_B) {
-  // Air at the hub: across the disc, and along it. The thrust points left when the main rotor turns clockwise.
+  // Air at the hub, normal to the disc and in its plane. The thrust is to the left if the main rotor turns clockwise.
   const double v_tr = v_air_B.y() - rotor.arm_m * w_WB_B.z() + rotor.height_m * w_WB_B.x();
   const double w_tr = v_air_B.z() + rotor.arm_m * w_WB_B.y();
   const double upflow = rotor.clockwise * v_tr;

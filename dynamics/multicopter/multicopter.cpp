@@ -23,8 +23,8 @@ double highest_thrust_n(const LiftRotorConfig& rotor) {
   return rotor.thrust_ns2 * rotor.highest_radps * rotor.highest_radps;
 }
 
-/// Largest s in [0, 1] that keeps base + s * extra within [0, highest]; base is within.
-double largest_share(const PerRotor& base, const PerRotor& extra, double highest) {
+/// Returns the maximum s in [0, 1] for which base + s * extra is within [0, highest]. @param base  within this range.
+double max_share(const PerRotor& base, const PerRotor& extra, double highest) {
   double share = 1.0;
   for (Eigen::Index i = 0; i < base.size(); ++i) {
     if (extra[i] > 0.0) share = std::min(share, (highest - base[i]) / extra[i]);
@@ -57,7 +57,7 @@ std::vector<HullPart> hull(const MulticopterConfig& config) {
 
 MulticopterModel make_model(const MulticopterConfig& c) {
   fields::require_bounds(c);
-  require(c.arms.size() >= 3 && c.arms.size() <= MulticopterConfig::kMostArms, "a multicopter has 3 to 16 arms");
+  require(c.arms.size() >= 3 && c.arms.size() <= MulticopterConfig::kMaxArms, "a multicopter has 3 to 16 arms");
   MulticopterModel model;
   model.mass = make_mass_properties(c.mass.mass_kg, c.mass.inertia_kgm2, c.mass.inertia_xz_kgm2);
   model.rotor = c.rotor;
@@ -79,16 +79,16 @@ MulticopterModel make_model(const MulticopterConfig& c) {
   const Eigen::Vector4d scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
   const Eigen::Matrix4d balanced = scale.asDiagonal() * gram * scale.asDiagonal();
   require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9,
-          "the arms cannot steer thrust, roll, pitch and yaw each on its own: spread them and let neighbors turn "
-          "in opposite directions");
+          "arms: thrust, roll, pitch and yaw cannot be controlled independently; spread the arms and let neighbors "
+          "turn in opposite directions");
   model.thrusts_of_wrench = model.wrench_of_thrusts.transpose() * gram.inverse();
 
   const PerRotor hover_n = model.thrusts_of_wrench.col(0) * (c.mass.mass_kg * kGravityMps2);
   require(hover_n.minCoeff() > 0.0,
-          "the arms cannot balance the vehicle in a hover: one rotor would have to pull down");
+          "arms: the vehicle cannot be balanced in a hover, one rotor would need negative thrust");
   require(hover_n.maxCoeff() < highest_thrust_n(c.rotor),
-          "the rotors cannot lift the vehicle: a hover asks " + std::to_string(hover_n.maxCoeff()) +
-              " N of one rotor that gives " + std::to_string(highest_thrust_n(c.rotor)) + " N at most");
+          "the rotors cannot lift the vehicle: a hover requires " + std::to_string(hover_n.maxCoeff()) +
+              " N from one rotor, whose maximum is " + std::to_string(highest_thrust_n(c.rotor)) + " N");
   return model;
 }
 
@@ -100,7 +100,7 @@ MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBod
   const Eigen::Vector3d& w_B = body.w_WB_B;
   MulticopterLoads loads;
   loads.f_B = -v_air_B.norm() * model.body_drag_ns2pm2.cwiseProduct(v_air_B);
-  Eigen::Vector3d h_B = Eigen::Vector3d::Zero(), h_rate_B = Eigen::Vector3d::Zero();  // the rotors' momentum
+  Eigen::Vector3d h_B = Eigen::Vector3d::Zero(), h_rate_B = Eigen::Vector3d::Zero();  // angular momentum of the rotors
   for (size_t i = 0; i < model.rotors.size(); ++i) {
     const MulticopterModel::Rotor& rotor = model.rotors[i];
     const double speed = speeds_radps[static_cast<Eigen::Index>(i)];
@@ -122,19 +122,19 @@ MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBod
   return loads;
 }
 
-PerRotor allocate(const MulticopterModel& model, const Controls& wanted) {
+PerRotor allocate(const MulticopterModel& model, const Controls& command) {
   const double highest = highest_thrust_n(model.rotor);
-  PerRotor tilting = model.thrusts_of_wrench.middleCols<2>(kRoll) * wanted.segment<2>(kRoll);
+  PerRotor tilting = model.thrusts_of_wrench.middleCols<2>(kRoll) * command.segment<2>(kRoll);
   const double spread = tilting.maxCoeff() - tilting.minCoeff();
   if (spread > highest) tilting *= highest / spread;
-  PerRotor thrusts = tilting + model.thrusts_of_wrench.col(kHeave) * wanted[kHeave];
+  PerRotor thrusts = tilting + model.thrusts_of_wrench.col(kHeave) * command[kHeave];
   const double too_low = std::max(0.0, -thrusts.minCoeff());
   thrusts.array() += too_low;
   const double too_high = std::max(0.0, thrusts.maxCoeff() - highest);
   thrusts.array() -= too_high;
   thrusts = thrusts.cwiseMax(0.0).cwiseMin(highest);
-  const PerRotor turning = model.thrusts_of_wrench.col(kYaw) * wanted[kYaw];
-  thrusts += largest_share(thrusts, turning, highest) * turning;
+  const PerRotor turning = model.thrusts_of_wrench.col(kYaw) * command[kYaw];
+  thrusts += max_share(thrusts, turning, highest) * turning;
   return (thrusts.cwiseMax(0.0) / model.rotor.thrust_ns2).cwiseSqrt();
 }
 
@@ -145,18 +145,18 @@ Controls wrench(const MulticopterModel& model, const PerRotor& speeds_radps) {
 Controls authority(const MulticopterModel& model) {
   const double highest = highest_thrust_n(model.rotor);
   const PerRotor hover_n = model.thrusts_of_wrench.col(kHeave) * (model.mass.mass_kg * kGravityMps2);
-  Controls most;
-  most[kHeave] = model.wrench_of_thrusts.row(kHeave).sum() * highest;
+  Controls limit;
+  limit[kHeave] = model.wrench_of_thrusts.row(kHeave).sum() * highest;
   for (const Eigen::Index axis : {kRoll, kPitch, kYaw}) {
     const PerRotor per_nm = model.thrusts_of_wrench.col(axis);
-    double most_nm = 1e9;
+    double limit_nm = 1e9;
     for (Eigen::Index i = 0; i < per_nm.size(); ++i) {
       const double share = std::abs(per_nm[i]);
-      if (share > 0.0) most_nm = std::min(most_nm, std::min(hover_n[i], highest - hover_n[i]) / share);
+      if (share > 0.0) limit_nm = std::min(limit_nm, std::min(hover_n[i], highest - hover_n[i]) / share);
     }
-    most[axis] = most_nm;
+    limit[axis] = limit_nm;
   }
-  return most;
+  return limit;
 }
 
 }  // namespace hedgehop::dynamics::multicopter

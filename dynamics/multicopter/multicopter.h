@@ -5,9 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/controls.h"
+#include "dynamics/actuators.h"
 #include "dynamics/hull.h"
-#include "dynamics/mass.h"
 #include "dynamics/rigid_body.h"
 #include "sim/fields/field.h"
 
@@ -26,13 +25,14 @@ void describe(Visitor& v, fields::ConfigOf<ArmConfig> auto& c) {
     {.unit = "deg",
      .at_least = -360.0,
      .at_most = 360.0,
-     .meaning = "where the arm points, from forward to the right"});
-  v("length", c.length_m, {.unit = "m", .above = 0.0, .at_most = 5.0, .meaning = "from the mass center to the rotor"});
+     .meaning = "direction of the arm, from forward to the right"});
+  v("length", c.length_m,
+    {.unit = "m", .above = 0.0, .at_most = 5.0, .meaning = "distance from the mass center to the rotor axis"});
   v("turns", c.turns, {.choices = {"counter_clockwise", "clockwise"}, .meaning = "sense of rotation seen from above"});
 }
 
-/// What all rotors of a multicopter have in common. Defaults: the Hummingbird, [FurrerBurriAchtelikSiegwart2016] table
-/// of parameters in the simulator's model file.
+/// Parameters that all rotors of a multicopter share. Defaults: the Hummingbird, [FurrerBurriAchtelikSiegwart2016]
+/// table of parameters in the simulator's model file.
 struct LiftRotorConfig {
   double thrust_ns2 = 8.54858e-6;
   double torque_m = 0.016;
@@ -68,15 +68,16 @@ void describe(Visitor& v, fields::ConfigOf<LiftRotorConfig> auto& c) {
   v("translational_lift", c.translational_lift_ns2pm2,
     {.unit = "N s2/m2", .at_least = 0.0, .meaning = "thrust per squared speed in the disc's plane"});
   v("time_constant_up", c.time_constant_up_s,
-    {.unit = "s", .above = 0.0, .at_most = 1.0, .meaning = "of the motor, speeding up"});
+    {.unit = "s", .above = 0.0, .at_most = 1.0, .meaning = "time constant of the motor for rising speed"});
   v("time_constant_down", c.time_constant_down_s,
-    {.unit = "s", .above = 0.0, .at_most = 1.0, .meaning = "of the motor, slowing down"});
-  v("highest_speed", c.highest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "at full power"});
-  v("inertia", c.inertia_kgm2, {.unit = "kg m2", .at_least = 0.0, .meaning = "of rotor and motor about the axis"});
+    {.unit = "s", .above = 0.0, .at_most = 1.0, .meaning = "time constant of the motor for falling speed"});
+  v("highest_speed", c.highest_radps, {.unit = "rad/s", .above = 0.0, .meaning = "maximum rotor speed"});
+  v("inertia", c.inertia_kgm2,
+    {.unit = "kg m2", .at_least = 0.0, .meaning = "moment of inertia of rotor and motor about the axis"});
   v("radius", c.radius_m, {.unit = "m", .above = 0.0, .meaning = "blade tip radius"});
   v("tilt_in", c.tilt_in_rad,
-    {.unit = "deg", .at_least = -30.0, .at_most = 30.0, .meaning = "lean of the axes towards the middle"});
-  v("height", c.height_m, {.unit = "m", .meaning = "of the rotors above the mass center"});
+    {.unit = "deg", .at_least = -30.0, .at_most = 30.0, .meaning = "tilt of the rotor axes towards the center"});
+  v("height", c.height_m, {.unit = "m", .meaning = "height of the rotors above the mass center"});
 }
 
 struct MulticopterHullConfig {
@@ -88,16 +89,16 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MulticopterHullConfig> auto& c) {
   v("body_size", c.body_size_m,
     {.unit = "m", .above = 0.0, .meaning = "box about the mass center: length, width, height"});
-  v("disc_thickness", c.disc_thickness_m, {.unit = "m", .above = 0.0, .meaning = "of the rotor discs"});
+  v("disc_thickness", c.disc_thickness_m, {.unit = "m", .above = 0.0, .meaning = "thickness of the rotor discs"});
   v("frame_thickness", c.frame_thickness_m,
-    {.unit = "m", .above = 0.0, .meaning = "of the disc that holds all arms, just below the rotors"});
+    {.unit = "m", .above = 0.0, .meaning = "thickness of the disc that contains all arms, directly below the rotors"});
 }
 
 /// A multicopter of any number of arms, each with one rotor. Defaults: the Hummingbird, as LiftRotorConfig.
 struct MulticopterConfig {
   static constexpr std::string_view kName = "multicopter";
-  static constexpr std::string_view kMeaning = "rotors of fixed pitch on arms, steered by their speeds";
-  static constexpr int kMostArms = 16;
+  static constexpr std::string_view kMeaning = "fixed-pitch rotors on arms, controlled by their speeds";
+  static constexpr int kMaxArms = 16;
 
   MassConfig mass{0.716, {0.007, 0.007, 0.012}, 0.0};
   std::vector<ArmConfig> arms{{0.0, 0.17, ArmConfig::Turns::clockwise},
@@ -112,20 +113,21 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MulticopterConfig> auto& c) {
   v("mass", c.mass, {.meaning = "mass and inertia"});
   v("arms", c.arms, {.meaning = "3 to 16 arms, each with a rotor"});
-  v("rotor", c.rotor, {.meaning = "what all rotors have in common, and their motors"});
+  v("rotor", c.rotor, {.meaning = "parameters that all rotors and motors share"});
   v("body_drag", c.body_drag_ns2pm2,
     {.unit = "N s2/m2", .at_least = 0.0, .meaning = "force per speed and component, along forward, right and down"});
-  v("hull", c.hull, {.meaning = "shape for collisions, beside the rotors and arms"});
+  v("hull", c.hull, {.meaning = "dimensions of the hull that rotors and arms do not give"});
 }
-/// Rotor discs, one disc that holds the arms, the body's box. Throws std::invalid_argument when one has no size.
+/// Returns the rotor discs, one disc that contains the arms, and the box of the body. Throws std::invalid_argument if a
+/// part has no size.
 std::vector<HullPart> hull(const MulticopterConfig& config);
 
-/// One number for every rotor; lives on the stack.
-using PerRotor = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, MulticopterConfig::kMostArms, 1>;
-using WrenchOfRotors = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, MulticopterConfig::kMostArms>;
-using RotorsOfWrench = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::ColMajor, MulticopterConfig::kMostArms, 4>;
+/// One number per rotor, on the stack.
+using PerRotor = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, MulticopterConfig::kMaxArms, 1>;
+using WrenchOfRotors = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, MulticopterConfig::kMaxArms>;
+using RotorsOfWrench = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::ColMajor, MulticopterConfig::kMaxArms, 4>;
 
-/// A multicopter ready to compute; constant in flight.
+/// Derived parameters of a multicopter; constant in flight.
 struct MulticopterModel {
   struct Rotor {
     Eigen::Vector3d p_BR = Eigen::Vector3d::Zero();   ///< of the hub, m
@@ -136,13 +138,13 @@ struct MulticopterModel {
   std::vector<Rotor> rotors;
   LiftRotorConfig rotor;
   Eigen::Vector3d body_drag_ns2pm2 = Eigen::Vector3d::Zero();
-  WrenchOfRotors wrench_of_thrusts;  ///< Controls (thrust along -z, torques) from the rotors' thrusts, at rest
-  RotorsOfWrench thrusts_of_wrench;  ///< its right inverse of least squares
+  WrenchOfRotors wrench_of_thrusts;  ///< Controls (thrust along -z, torques) from the rotor thrusts, at rest
+  RotorsOfWrench thrusts_of_wrench;  ///< its least-squares right inverse
 };
-/// Throws std::invalid_argument on a value that cannot be, or on arms that cannot steer all four motions.
+/// Throws std::invalid_argument if a value is invalid or the arms cannot control all four motions.
 MulticopterModel make_model(const MulticopterConfig& config);
 
-/// All loads but gravity about the mass center, the rotors' gyroscopic torque among them.
+/// All loads except gravity about the mass center, including the gyroscopic torque of the rotors.
 struct MulticopterLoads {
   Eigen::Vector3d f_B = Eigen::Vector3d::Zero();  ///< N
   Eigen::Vector3d t_B = Eigen::Vector3d::Zero();  ///< N m
@@ -155,12 +157,12 @@ MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBod
                                    const PerRotor& speeds_radps, const PerRotor& spin_ups_radps2,
                                    const Eigen::Vector3d& wind_W);
 
-/// Rotor speeds for thrust and torques, within [0, highest]. What exceeds the rotors' limits is reduced in this order:
-/// yaw torque, then thrust, then roll and pitch torque.
-PerRotor allocate(const MulticopterModel& model, const Controls& wanted);
-/// Thrust and torques that the rotors give at rest in still air.
+/// Returns the rotor speeds, within [0, highest], for thrust and torques. If the rotors saturate, it reduces yaw torque
+/// first, then thrust, then roll and pitch torque.
+PerRotor allocate(const MulticopterModel& model, const Controls& command);
+/// Returns thrust and torques of the rotors at rest in still air.
 Controls wrench(const MulticopterModel& model, const PerRotor& speeds_radps);
-/// How large a torque of each axis is within reach of the hover's rotor speeds, N m; [kHeave] is the greatest thrust,
+/// Returns the maximum torque about each axis from the rotor speeds of the hover, N m; [kHeave] is the maximum thrust,
 /// N.
 Controls authority(const MulticopterModel& model);
 

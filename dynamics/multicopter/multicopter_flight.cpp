@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "dynamics/integrator.h"
+#include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics::multicopter {
 namespace {
@@ -13,14 +13,16 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-PerRotor still(const MulticopterModel& model) { return PerRotor::Zero(static_cast<Eigen::Index>(model.rotors.size())); }
+PerRotor zero_rates(const MulticopterModel& model) {
+  return PerRotor::Zero(static_cast<Eigen::Index>(model.rotors.size()));
+}
 
 PerRotor speeds_for(const MulticopterModel& model, const Controls& wrench) {
   return (model.thrusts_of_wrench * wrench / model.rotor.thrust_ns2).cwiseMax(0.0).cwiseSqrt();
 }
 
-/// Speeds after t_s of first-order motors approaching `commanded`.
-PerRotor spun(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded, double t_s) {
+/// Returns the speeds after t_s of first-order motor response to `commanded`.
+PerRotor speeds_after(const MulticopterModel& model, const PerRotor& speeds, const PerRotor& commanded, double t_s) {
   const LiftRotorConfig& c = model.rotor;
   PerRotor out = speeds;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
@@ -40,7 +42,7 @@ PerRotor spin_ups(const MulticopterModel& model, const PerRotor& speeds, const P
   return out;
 }
 
-/// Roll, pitch and wrench to the flight they stand for.
+/// Returns the flight with this roll, pitch and wrench.
 MulticopterTrim flight_at(const MulticopterModel& model, const Vector6& x, const Eigen::Vector3d& v_air_W,
                           double heading_rad) {
   MulticopterTrim t;
@@ -52,10 +54,10 @@ MulticopterTrim flight_at(const MulticopterModel& model, const Vector6& x, const
   return t;
 }
 
-/// Accelerations of a flight, linear then angular.
+/// Returns the accelerations of a flight, linear, then angular.
 Vector6 trim_residual(const MulticopterModel& model, const MulticopterTrim& t) {
   const MulticopterLoads loads =
-      multicopter_loads(model, t.state.body, t.state.speeds_radps, still(model), Eigen::Vector3d::Zero());
+      multicopter_loads(model, t.state.body, t.state.speeds_radps, zero_rates(model), Eigen::Vector3d::Zero());
   return derivative(model.mass, t.state.body, loads.f_B, loads.t_B).tail<6>();
 }
 
@@ -64,10 +66,10 @@ Vector6 trim_residual(const MulticopterModel& model, const MulticopterTrim& t) {
 std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
   Vector6 x = Vector6::Zero();
   x[2] = model.mass.mass_kg * kGravityMps2;
-  constexpr int kMostSteps = 60;
-  constexpr double kAtRest = 1e-11, kStep = 1e-6, kLongestTilt = 0.2;
+  constexpr int kMaxSteps = 60;
+  constexpr double kAtRest = 1e-11, kStep = 1e-6, kMaxTiltStep = 0.2;
   Vector6 f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
-  for (int i = 0; i < kMostSteps && !(f.norm() < kAtRest); ++i) {
+  for (int i = 0; i < kMaxSteps && !(f.norm() < kAtRest); ++i) {
     Matrix6 J;
     for (int k = 0; k < 6; ++k) {
       Vector6 ahead = x, behind = x;
@@ -79,7 +81,7 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
     }
     Vector6 step = J.partialPivLu().solve(-f);
     const double tilt = step.head<2>().norm();
-    if (tilt > kLongestTilt) step *= kLongestTilt / tilt;
+    if (tilt > kMaxTiltStep) step *= kMaxTiltStep / tilt;
     x += step;
     f = trim_residual(model, flight_at(model, x, v_air_W, heading_rad));
   }
@@ -94,10 +96,10 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
 
 MulticopterLinearModel linearize(const MulticopterModel& model, const MulticopterTrim& trim) {
   using L = MulticopterLinearModel;
-  constexpr int kMoved = L::kThrust;  // states that are moved by differences: of body, then the wrench
+  constexpr int kMoved = L::kThrust;  // rates by differences: those of the body
   const Controls wrench0 = wrench(model, trim.state.speeds_radps);
   const double heading0 = to_roll_pitch_heading(trim.state.body.q_WB)[2];
-  const PerRotor none = still(model);
+  const PerRotor none = zero_rates(model);
   const auto rate = [&](const Eigen::Matrix<double, L::kStates, 1>& d) {
     RigidBodyState body = trim.state.body;
     const Eigen::Vector3d rpy = Eigen::Vector3d(trim.roll_rad, trim.pitch_rad, heading0) + d.segment<3>(L::kRollAngle);
@@ -127,7 +129,7 @@ MulticopterLinearModel linearize(const MulticopterModel& model, const Multicopte
   const double tau_s = 0.5 * (model.rotor.time_constant_up_s + model.rotor.time_constant_down_s);
   linear.A.bottomRightCorner<4, 4>() = -Eigen::Matrix4d::Identity() / tau_s;
   linear.B.bottomRows<4>() = Eigen::Matrix4d::Identity() / tau_s;
-  // A motor that speeds up turns the body the other way: h' per wrench' is constant, wrench' as in the rows above.
+  // Reaction torque of accelerating rotors: h' per wrench' is constant, wrench' as in the rows above.
   Eigen::Matrix<double, 3, 4> spin = Eigen::Matrix<double, 3, 4>::Zero();
   for (size_t i = 0; i < model.rotors.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -155,7 +157,8 @@ void MulticopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, c
 
 void MulticopterFlight::set_state(const MulticopterFlightState& state, const Eigen::Vector3d& wind_W) {
   state_ = state;
-  const MulticopterLoads loads = multicopter_loads(model_, state_.body, state_.speeds_radps, still(model_), wind_W);
+  const MulticopterLoads loads =
+      multicopter_loads(model_, state_.body, state_.speeds_radps, zero_rates(model_), wind_W);
   specific_force_B_ = loads.f_B / model_.mass.mass_kg;
 }
 
@@ -163,7 +166,7 @@ void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vect
   PerRotor commanded_radps = allocate(model_, command);
   for (const ActuatorFault& fault : faults_) {
     const auto i = static_cast<Eigen::Index>(fault.actuator);
-    commanded_radps[i] = followed(fault, commanded_radps[i], state_.speeds_radps[i]);
+    commanded_radps[i] = faulty_command(fault, commanded_radps[i], state_.speeds_radps[i]);
   }
   step(commanded_radps, wind_W, dt_s);
 }
@@ -171,7 +174,7 @@ void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vect
 void MulticopterFlight::step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s) {
   const PerRotor commanded = commanded_radps.cwiseMax(0.0).cwiseMin(model_.rotor.highest_radps);
   const auto rate = [&](double t_s, const RigidBodyVector& x) -> RigidBodyVector {
-    const PerRotor speeds = spun(model_, state_.speeds_radps, commanded, t_s);
+    const PerRotor speeds = speeds_after(model_, state_.speeds_radps, commanded, t_s);
     const RigidBodyState body = to_rigid_body(x);
     const MulticopterLoads loads = multicopter_loads(model_, body, speeds, spin_ups(model_, speeds, commanded), wind_W);
     return derivative(model_.mass, body, loads.f_B, loads.t_B);
@@ -179,7 +182,7 @@ void MulticopterFlight::step(const PerRotor& commanded_radps, const Eigen::Vecto
   MulticopterFlightState next;
   next.body = to_rigid_body(rk4_step<13>(to_vector(state_.body), 0.0, dt_s, rate));
   next.body.q_WB.normalize();
-  next.speeds_radps = spun(model_, state_.speeds_radps, commanded, dt_s);
+  next.speeds_radps = speeds_after(model_, state_.speeds_radps, commanded, dt_s);
   set_state(next, wind_W);
 }
 

@@ -20,7 +20,7 @@ Gps::Gps(const GpsConfig& config, double physics_dt_s, uint64_t seed)
 void Gps::observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W) {
   past_[next_] = {p_WB, v_WB_W};
   next_ = (next_ + 1) % past_.size();
-  known_ = std::min(known_ + 1, past_.size());
+  count_ = std::min(count_ + 1, past_.size());
 }
 
 std::optional<GpsFix> Gps::read() {
@@ -30,7 +30,7 @@ std::optional<GpsFix> Gps::read() {
   const Eigen::Vector3d p_noise = config_.noise_m * normal3(noise_);
   const Eigen::Vector3d v_noise = config_.velocity_noise_mps * normal3(noise_);
   const bool lost = config_.dropout > 0.0 && noise_.chance(config_.dropout);
-  if (lost || !config_.enabled || known_ < past_.size()) return std::nullopt;
+  if (lost || !config_.enabled || count_ < past_.size()) return std::nullopt;
   const Truth& then = past_[next_];  // the oldest
   return GpsFix{then.p_WB + wander_m_ + p_noise, then.v_WB_W + v_noise};
 }

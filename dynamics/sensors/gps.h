@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "dynamics/rigid_body.h"
-#include "dynamics/sensors/sensor_noise.h"
+#include "dynamics/sensors/sensor_errors.h"
 #include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
-/// A satellite receiver: late, its position error wanders. Rate, latency and correlation time as [PX4Gazebo2024];
-/// the split of the error into wandering and white parts is an estimate.
+/// A satellite receiver with latency and a wandering position error. Rate, latency and correlation time are those of
+/// [PX4Gazebo2024]. The split of the error into wandering and white parts is an estimate.
 struct GpsConfig {
   bool enabled = true;
   double rate_hz = 5.0;
@@ -25,10 +25,10 @@ struct GpsConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<GpsConfig> auto& c) {
-  v("enabled", c.enabled, {.meaning = "whether there is reception"});
+  v("enabled", c.enabled, {.meaning = "whether the receiver has reception"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "fixes a second; divides the physics rate"});
-  v("latency", c.latency_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "age of a fix when it arrives"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "fixes per second; divides the physics rate"});
+  v("latency", c.latency_s, {.unit = "s", .at_least = 0.0, .at_most = 2.0, .meaning = "age of a fix on arrival"});
   v("wander_horizontal", c.wander_horizontal_m,
     {.unit = "m", .at_least = 0.0, .meaning = "standard deviation per axis of the wandering position error"});
   v("wander_vertical", c.wander_vertical_m,
@@ -37,12 +37,12 @@ void describe(Visitor& v, fields::ConfigOf<GpsConfig> auto& c) {
   v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white position noise per axis"});
   v("velocity_noise", c.velocity_noise_mps,
     {.unit = "m/s", .at_least = 0.0, .meaning = "white velocity noise per axis"});
-  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of fixes that are missing"});
+  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that a fix is missing"});
 }
 
 struct GpsFix {
-  Eigen::Vector3d p_WB_W_meas = Eigen::Vector3d::Zero();  ///< as it was a latency ago, m
-  Eigen::Vector3d v_WB_W_meas = Eigen::Vector3d::Zero();  ///< as it was a latency ago, m/s
+  Eigen::Vector3d p_WB_W_meas = Eigen::Vector3d::Zero();  ///< of one latency ago, m
+  Eigen::Vector3d v_WB_W_meas = Eigen::Vector3d::Zero();  ///< of one latency ago, m/s
 };
 
 class Gps {
@@ -52,10 +52,10 @@ class Gps {
 
   int64_t period() const { return period_; }
 
-  /// Remembers where the vehicle is on this physics tick.
+  /// Stores the true position and velocity. Must be called on every physics tick.
   void observe(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB_W);
-  /// The fix that arrives at this tick; none without reception, on a drop-out or before the first is old enough.
-  /// To be called once every period() ticks.
+  /// Returns the fix that arrives on this tick; nullopt without reception, on a drop-out, or before one latency has
+  /// passed. Must be called every period() ticks.
   std::optional<GpsFix> read();
 
  private:
@@ -67,8 +67,8 @@ class Gps {
   int64_t period_;
   RandomStream noise_;
   Eigen::Vector3d wander_sigma_m_, wander_m_;
-  std::vector<Truth> past_;  ///< a ring as long as the latency
-  size_t next_ = 0, known_ = 0;
+  std::vector<Truth> past_;  ///< ring buffer as long as the latency
+  size_t next_ = 0, count_ = 0;
 };
 
 }  // namespace hedgehop::dynamics::sensors

@@ -11,13 +11,13 @@
 namespace hedgehop::dynamics::sensors {
 namespace {
 
-/// One step of a first-order low-pass filter by the bilinear transform, warped so that -3 dB stands at the cut-off.
+/// Returns one step of a first-order low-pass filter by the bilinear transform, prewarped to -3 dB at the cut-off.
 Eigen::Vector3d filtered(double k, const Eigen::Vector3d& out, const Eigen::Vector3d& in_last,
                          const Eigen::Vector3d& in) {
   return ((1.0 - k) * out + k * (in_last + in)) / (1.0 + k);
 }
 
-Eigen::Vector3d within(const Eigen::Vector3d& v, double range) { return v.cwiseMax(-range).cwiseMin(range); }
+Eigen::Vector3d clamped(const Eigen::Vector3d& v, double range) { return v.cwiseMax(-range).cwiseMin(range); }
 
 }  // namespace
 
@@ -50,7 +50,7 @@ Imu::Imu(const ImuConfig& config, double physics_dt_s, uint64_t seed)
 }
 
 void Imu::observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B) {
-  // At the sensor's place: Euler and centripetal acceleration, the former by the difference over a tick.
+  // At the sensor's position: Euler and centripetal acceleration, the former by the difference over one tick.
   const Eigen::Vector3d w_dot = started_ ? Eigen::Vector3d((w_WB_B - w_in_) / dt_s_) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d& r = config_.p_BI_m;
   const Eigen::Vector3d f = f_B + w_dot.cross(r) + w_WB_B.cross(w_WB_B.cross(r));
@@ -72,7 +72,7 @@ ImuReading Imu::read() {
       R_IB_ * w_out_ + errors.w_WB_B_meas + config_.gyro_noise_density * root_rate * normal3(noise_);
   const Eigen::Vector3d f =
       R_IB_ * f_out_ + errors.specific_force_B_meas + config_.accelerometer_noise_density * root_rate * normal3(noise_);
-  return {within(w, config_.gyro_range_radps), within(f, config_.accelerometer_range_mps2)};
+  return {clamped(w, config_.gyro_range_radps), clamped(f, config_.accelerometer_range_mps2)};
 }
 
 ImuReading Imu::bias() const { return {gyro_offset_ + gyro_wander_, accelerometer_offset_ + accelerometer_wander_}; }

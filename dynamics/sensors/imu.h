@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include "dynamics/rigid_body.h"
-#include "dynamics/sensors/sensor_noise.h"
+#include "dynamics/sensors/sensor_errors.h"
 #include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
-/// Gyros and accelerometers. reading = range(misaligned low-pass(truth) + offset + wandering bias + white noise).
+/// Gyros and accelerometers: reading = clamp(misaligned low-pass(truth) + offset + wandering bias + white noise).
 /// Noise of an ADIS16448: [FurrerBurriAchtelikSiegwart2016] sec. 5.4; filter, ranges and misalignment are estimates. It
-/// drops no reading: it sits on the flight computer's own bus, and an aircraft without it falls.
+/// has no drop-outs, because it is on the flight computer's bus and the aircraft cannot fly without it.
 struct ImuConfig {
   double rate_hz = 100.0;
   double gyro_noise_density = 3.394e-4;        ///< rad/s/sqrt(Hz)
@@ -26,13 +26,14 @@ struct ImuConfig {
   double gyro_range_radps = 17.453292519943295;
   double accelerometer_range_mps2 = 176.58;
   double misalignment_rad = 0.0017453292519943295;   ///< standard deviation about each axis of B
-  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< where it sits, from the mass center, in B
+  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< position from the mass center, in B
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<ImuConfig> auto& c) {
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
-  v("gyro_noise", c.gyro_noise_density, {.unit = "rad/s/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings per second; divides the physics rate"});
+  v("gyro_noise", c.gyro_noise_density,
+    {.unit = "rad/s/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density of the gyros"});
   v("gyro_bias_walk", c.gyro_bias_walk,
     {.unit = "rad/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "noise density that drives the wandering bias"});
   v("gyro_bias_time", c.gyro_bias_time_s,
@@ -40,7 +41,7 @@ void describe(Visitor& v, fields::ConfigOf<ImuConfig> auto& c) {
   v("gyro_offset", c.gyro_offset_radps,
     {.unit = "rad/s", .at_least = 0.0, .meaning = "standard deviation of the offset drawn at turn-on"});
   v("accelerometer_noise", c.accelerometer_noise_density,
-    {.unit = "m/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density"});
+    {.unit = "m/s^2/sqrt(Hz)", .at_least = 0.0, .meaning = "white noise density of the accelerometers"});
   v("accelerometer_bias_walk", c.accelerometer_bias_walk,
     {.unit = "m/s^3/sqrt(Hz)", .at_least = 0.0, .meaning = "noise density that drives the wandering bias"});
   v("accelerometer_bias_time", c.accelerometer_bias_time_s,
@@ -51,12 +52,12 @@ void describe(Visitor& v, fields::ConfigOf<ImuConfig> auto& c) {
     {.unit = "Hz",
      .at_least = fields::kMinRateHz,
      .meaning = "-3 dB frequency of the low-pass filter; below half the physics rate"});
-  v("gyro_range", c.gyro_range_radps, {.unit = "rad/s", .above = 0.0, .meaning = "greatest rate it can read"});
+  v("gyro_range", c.gyro_range_radps, {.unit = "rad/s", .above = 0.0, .meaning = "maximum rate of a reading"});
   v("accelerometer_range", c.accelerometer_range_mps2,
-    {.unit = "m/s^2", .above = 0.0, .meaning = "greatest specific force it can read"});
+    {.unit = "m/s^2", .above = 0.0, .meaning = "maximum specific force of a reading"});
   v("misalignment", c.misalignment_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 5.0, .meaning = "standard deviation of the mounting error per axis"});
-  v("position", c.p_BI_m, {.unit = "m", .meaning = "where it sits: forward, right, down of the mass center"});
+  v("position", c.p_BI_m, {.unit = "m", .meaning = "position: forward, right, down of the mass center"});
 }
 
 struct ImuReading {
@@ -71,13 +72,13 @@ class Imu {
 
   int64_t period() const { return period_; }  ///< physics ticks between readings
 
-  /// What the sensor sees on every physics tick, before noise: runs the filter.
-  /// @param w_WB_B, f_B  angular velocity, and specific force of the mass center, in B.
+  /// Updates the low-pass filter with the true motion. Must be called on every physics tick.
+  /// @param w_WB_B  angular velocity, in B. @param f_B  specific force of the mass center, in B.
   void observe(const Eigen::Vector3d& w_WB_B, const Eigen::Vector3d& f_B);
-  /// The reading at this tick; to be called once every period() ticks.
+  /// Returns the reading on this tick. Must be called every period() ticks.
   ImuReading read();
 
-  /// Offset plus wandering bias as they stand: what a perfect calibration would take away.
+  /// Returns the present offset plus wandering bias, which a perfect calibration would remove.
   ImuReading bias() const;
 
  private:
@@ -90,10 +91,10 @@ class Imu {
   Eigen::Matrix3d R_IB_;
   Eigen::Vector3d gyro_offset_, accelerometer_offset_, gyro_wander_, accelerometer_wander_;
   bool started_ = false;
-  Eigen::Vector3d w_in_, f_in_, w_out_, f_out_;  ///< of the filter, at the last tick
+  Eigen::Vector3d w_in_, f_in_, w_out_, f_out_;  ///< of the filter, on the last tick
 };
 
-/// The wandering biases as processes of their stationary standard deviation, N_b sqrt(tau / 2).
+/// Return the processes of the wandering biases. Their stationary standard deviation is N_b sqrt(tau / 2).
 GaussMarkov gyro_wander(const ImuConfig& config);
 GaussMarkov accelerometer_wander(const ImuConfig& config);
 

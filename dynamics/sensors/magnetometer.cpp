@@ -1,8 +1,6 @@
 #include "dynamics/sensors/magnetometer.h"
 
-#include <cmath>
-#include <numbers>
-
+#include "dynamics/rigid_body.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::sensors {
@@ -20,7 +18,5 @@ std::optional<double> Magnetometer::read(double heading_rad) {
   if (lost || !config_.enabled) return std::nullopt;
   return wrap_angle(heading_rad + offset_rad_ + noise_rad);
 }
-
-double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
 }  // namespace hedgehop::dynamics::sensors

@@ -3,14 +3,14 @@
 #include <cstdint>
 #include <optional>
 
-#include "dynamics/sensors/sensor_noise.h"
+#include "dynamics/sensors/sensor_errors.h"
 #include "sim/fields/field.h"
 
 namespace hedgehop::dynamics::sensors {
 
-/// A tilt-compensated magnetic compass: heading with an offset that stays (iron on board, declination) and white noise.
-/// Numbers are estimates: 0.4 mG/sqrt(Hz) in a field of 215 mG horizontally is 0.1 deg/sqrt(Hz) [PX4Gazebo2024]. It has
-/// no lag: a magnetometer settles within a few milliseconds, in which no heading turns by more than its noise.
+/// A tilt-compensated magnetic compass: heading with a constant offset (iron on board, declination) and white noise.
+/// Values are estimates: 0.4 mG/sqrt(Hz) in a horizontal field of 215 mG is 0.1 deg/sqrt(Hz) [PX4Gazebo2024]. It has no
+/// lag because a magnetometer settles within a few milliseconds, in which the heading changes by less than the noise.
 struct MagnetometerConfig {
   bool enabled = true;
   double rate_hz = 50.0;
@@ -22,11 +22,11 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MagnetometerConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether the compass works"});
   v("rate", c.rate_hz,
-    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings a second; divides the physics rate"});
+    {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings per second; divides the physics rate"});
   v("noise", c.noise_rad, {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "white noise of a reading"});
   v("offset", c.offset_rad,
     {.unit = "deg", .at_least = 0.0, .at_most = 90.0, .meaning = "standard deviation of the offset drawn at turn-on"});
-  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "share of readings that are missing"});
+  v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that a reading is missing"});
 }
 
 class Magnetometer {
@@ -37,8 +37,8 @@ class Magnetometer {
   int64_t period() const { return period_; }  ///< physics ticks between readings
   double offset_rad() const { return offset_rad_; }
 
-  /// @return heading with its errors, from north to east, -pi..pi; none on a drop-out or when disabled. To be called
-  /// once every period() ticks.
+  /// Returns the heading with its errors, from north to east, -pi..pi; nullopt on a drop-out or if disabled. Must be
+  /// called every period() ticks.
   std::optional<double> read(double heading_rad);
 
  private:
@@ -47,8 +47,5 @@ class Magnetometer {
   RandomStream noise_;
   double offset_rad_;
 };
-
-/// The same angle in -pi..pi.
-double wrap_angle(double angle_rad);
 
 }  // namespace hedgehop::dynamics::sensors

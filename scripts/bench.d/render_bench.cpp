@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scripts/bench.d/drawn_scenes.h"
+#include "sim/fields/order_statistics.h"
 #include "sim/fields/quantities.h"
 #include "sim/loop/shutter.h"
 #include "sim/render/renderer.h"
@@ -67,11 +68,6 @@ double cpu_s() {
   return static_cast<double>(time.tv_sec) + seconds(time.tv_nsec);
 }
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
 /// Images of a case, equal for each renderer.
 struct Case {
   std::string name;
@@ -118,7 +114,7 @@ std::vector<double> times_s(const std::vector<Subject>& subjects, int rounds) {
     }
   }
   std::vector<double> medians_s;
-  for (const std::vector<double>& of_subject : times) medians_s.push_back(median(of_subject));
+  for (std::vector<double>& of_subject : times) medians_s.push_back(upper_median(of_subject));
   return medians_s;
 }
 
@@ -163,8 +159,8 @@ class Bench {
         drawn_ms[kind == RendererKind::tiles].push_back(1e3 * (cpu_s() - start_s));
       }
     }
-    const auto row = [&](const std::string& name, const auto& ms, const Goal& goal) {
-      const double osmesa_ms = median(ms[0]), tiles_ms = median(ms[1]);
+    const auto row = [&](const std::string& name, auto& ms, const Goal& goal) {
+      const double osmesa_ms = upper_median(ms[0]), tiles_ms = upper_median(ms[1]);
       print({name, "ms", kNone, osmesa_ms, tiles_ms, osmesa_ms / tiles_ms, goal});
     };
     row(images.name + ", renderer made", made_ms, {});

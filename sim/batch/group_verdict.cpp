@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/fields/order_statistics.h"
 #include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
@@ -73,13 +74,6 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::ranges::sort(values);
-  const size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
   std::vector<GroupSummary> groups;

@@ -19,9 +19,6 @@ struct GroupSummary {
   double median_time_s = 0.0;                                ///< of flight; NaN without a flight
 };
 
-/// NaN of nothing; the mean of the middle two of an even number.
-double median(std::vector<double> values);
-
 /// One row a group, in the order of their first flights.
 std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records);
 

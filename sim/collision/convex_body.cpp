@@ -22,7 +22,7 @@ btTransform to_bullet_transform(const Eigen::Isometry3d& X) {
   return btTransform(basis, to_bullet(X.translation()));
 }
 
-// Bullet shapes carry a margin that rounds them; without it they are the exact bodies. A sphere is nothing but margin.
+// Bullet shapes have a margin that rounds them; without it they are exact. A sphere is defined by its margin alone.
 std::unique_ptr<const btConvexShape> bullet_shape(Shape shape, const Vector3d& half_extents_m) {
   if (shape == Shape::sphere) return std::make_unique<btSphereShape>(half_extents_m.x());
   std::unique_ptr<btConvexShape> made;
@@ -43,7 +43,7 @@ std::unique_ptr<const btConvexShape> bullet_shape(const scenes::mesh::Polyhedron
   return made;
 }
 
-// Six for boxes, and for cylinders those along their axes.
+// Returns the six axis directions for boxes and cylinders.
 std::vector<Vector3d> axis_normals(Shape shape) {
   std::vector<Vector3d> normals;
   for (int axis = 0; axis < 3 && shape != Shape::sphere; ++axis) {
@@ -53,7 +53,7 @@ std::vector<Vector3d> axis_normals(Shape shape) {
   return normals;
 }
 
-// [Ericson2005] sec. 5.1.5: the point of triangle abc nearest to p, by the region of the plane that p lies over.
+// Returns the point of triangle abc nearest to p, by the region of the plane below p. Source: [Ericson2005] sec. 5.1.5.
 Vector3d nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -74,13 +74,13 @@ Vector3d nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3
   return a + vb * scale * ab + vc * scale * ac;
 }
 
-// The stretch of a ray inside a body, in lengths of the ray.
-struct Stretch {
+// The interval of a ray inside a body, in lengths of the ray.
+struct RayInterval {
   double enter = 0.0, leave = kInfinity;
 
   double length() const { return enter <= leave ? enter : kInfinity; }
   void miss() { leave = -kInfinity; }
-  // Keeps what lies between -half and half, where the ray starts at `at` and gains `rate`.
+  // Clips to -half..half along one axis. @param at  start of the ray. @param rate  its component along the axis.
   void clip_slab(double at, double rate, double half) {
     if (rate == 0.0) {
       if (std::abs(at) > half) miss();
@@ -90,7 +90,7 @@ struct Stretch {
     enter = std::max(enter, std::min(one, other));
     leave = std::min(leave, std::max(one, other));
   }
-  // Keeps what lies within `radius` of the origin of a plane or space.
+  // Clips to a circle or sphere around the origin.
   template <class Vector>
   void clip_round(const Vector& at, const Vector& rate, double radius) {
     const double a = rate.squaredNorm(), b = at.dot(rate), c = at.squaredNorm() - radius * radius;
@@ -103,7 +103,8 @@ struct Stretch {
     enter = std::max(enter, (-b - std::sqrt(discriminant)) / a);
     leave = std::min(leave, (-b + std::sqrt(discriminant)) / a);
   }
-  // Keeps what lies behind a plane, `ahead` of which the ray starts and towards whose front it gains `rate`.
+  // Clips to the back of a plane. @param ahead  start of the ray in front of it. @param rate  component along its
+  // normal.
   void clip_plane(double ahead, double rate) {
     if (rate == 0.0) {
       if (ahead > 0.0) miss();
@@ -115,7 +116,7 @@ struct Stretch {
   }
 };
 
-// Of a lone triangle, met from either side.
+// Returns the length of a ray to a single triangle, from either side.
 double ray_to_triangle(const Vector3d& p, const Vector3d& ray, const Vector3d& a, const Vector3d& b,
                        const Vector3d& c) {
   const Vector3d e1 = b - a, e2 = c - a, across = ray.cross(e2);
@@ -161,7 +162,7 @@ Eigen::Vector3d ConvexBody::nearest(const Eigen::Vector3d& p_S) const {
     return from_center_m > radius_m ? Vector3d(radius_m / from_center_m * p_S) : p_S;
   }
   if (shape == Shape::polyhedron) {
-    // The nearest of all points lies on a face that is seen from p_S; none is from inside.
+    // The nearest point is on a face visible from p_S. From inside, no face is visible.
     const bool is_closed = polyhedron.faces.size() > 1;
     Vector3d best = p_S;
     double best_m2 = kInfinity;
@@ -184,7 +185,7 @@ Eigen::Vector3d ConvexBody::nearest(const Eigen::Vector3d& p_S) const {
   return q;
 }
 
-Eigen::Vector3d ConvexBody::farthest(const Eigen::Vector3d& direction_S) const {
+Eigen::Vector3d ConvexBody::support(const Eigen::Vector3d& direction_S) const {
   if (shape == Shape::sphere) return half_extents_m.x() * direction_S.normalized();
   if (shape == Shape::polyhedron) {
     return *std::ranges::max_element(polyhedron.corners, {}, [&](const Vector3d& p) { return direction_S.dot(p); });
@@ -216,7 +217,7 @@ double ConvexBody::depth_m(const Eigen::Vector3d& p_S) const {
 }
 
 double ConvexBody::ray_length(const Eigen::Vector3d& p_S, const Eigen::Vector3d& ray_S) const {
-  Stretch inside;
+  RayInterval inside;
   switch (shape) {
     case Shape::box:
       for (int axis = 0; axis < 3; ++axis) inside.clip_slab(p_S[axis], ray_S[axis], half_extents_m[axis]);
@@ -245,8 +246,8 @@ double ConvexBody::ray_length(const Eigen::Vector3d& p_S, const Eigen::Vector3d&
 PlacedBody::PlacedBody(const ConvexBody& body_, const Eigen::Isometry3d& X)
     : body(&body_), X_WS(X), X_SW(X.inverse()), bullet_X_WS(to_bullet_transform(X)) {}
 
-double PlacedBody::reach(const Eigen::Vector3d& direction_W) const {
-  return direction_W.dot(X_WS * body->farthest(X_SW.linear() * direction_W));
+double PlacedBody::extent(const Eigen::Vector3d& direction_W) const {
+  return direction_W.dot(X_WS * body->support(X_SW.linear() * direction_W));
 }
 
 Eigen::Vector3d PlacedBody::half_size_W() const {

@@ -1,6 +1,7 @@
 #include "sim/collision/proximity.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
+#include <LinearMath/btScalar.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/collision/separation.h"
+#include "sim/collision/convex_body.h"
 #include "sim/collision/solid_bodies.h"
 #include "sim/fields/quantities.h"
 
@@ -18,9 +19,9 @@ namespace {
 using dynamics::HullPart;
 using scenes::Solid;
 
-constexpr double kClosedFormErrorM = 1e-9;  // by which closed-form bounds may be off, far from the origin too
+constexpr double kClosedFormErrorM = 1e-9;  // error of closed-form bounds, also far from the origin
 
-// Hands each solid whose box in the tree meets a volume to `visit`.
+// Calls `visit` for each solid whose box in the tree intersects a volume.
 template <class Visit>
 struct Collector : btDbvt::ICollide {
   explicit Collector(Visit v) : visit(std::move(v)) {}
@@ -43,8 +44,9 @@ class CollisionWorld::World {
         solid_of_.push_back(i);
       }
     }
-    for (still_ = 0; still_ < bodies_.size() && solid_of_[still_] < scene.solids.size(); ++still_) {
-      place_still(scene.solids[solid_of_[still_]].X_WS);
+    for (static_count_ = 0; static_count_ < bodies_.size() && solid_of_[static_count_] < scene.solids.size();
+         ++static_count_) {
+      place_static(scene.solids[solid_of_[static_count_]].X_WS);
     }
     place_moving(scene);
     tree_.optimizeTopDown();
@@ -52,18 +54,19 @@ class CollisionWorld::World {
 
   Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
     place_hull(X_WB);
-    Nearest nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
+    NearestBody nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
 
-    // The solid that was nearest last time is close now: its distance narrows the search, not the result.
+    // The previously nearest solid is still close: its distance reduces the search without changing the result.
     if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kClosedFormErrorM);
-    visit_still(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
+    visit_static(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
       if (index != last_nearest_) consider(index, placed_[index], nearest);
     });
     if (nearest.body) last_nearest_ = nearest.body;
-    for (const Carried& carried : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
-      for (size_t k = 0; k < carried.count; ++k) consider(carried.first + k, placed(carried, k, p_WM), nearest);
+    for (const MoverBodies& mover_bodies : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
+      for (size_t k = 0; k < mover_bodies.count; ++k)
+        consider(mover_bodies.first + k, placed(mover_bodies, k, p_WM), nearest);
     }
 
     Proximity result;
@@ -80,12 +83,13 @@ class CollisionWorld::World {
   double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const {
     double height_m = has_ground_ ? std::max(-p_WB.z(), 0.0) : kInfinity;
     const Eigen::Vector3d lowest_W(p_WB.x(), p_WB.y(), std::max(p_WB.z(), lowest_z_));
-    visit_still(p_WB, lowest_W, [&](size_t index) { height_m = std::min(height_m, plumb_line(p_WB, placed_[index])); });
-    for (const Carried& carried : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
-      if ((p_WB - p_WM).head<2>().norm() > carried.radius_m) continue;
-      for (size_t k = 0; k < carried.count; ++k) {
-        height_m = std::min(height_m, plumb_line(p_WB, placed(carried, k, p_WM)));
+    visit_static(p_WB, lowest_W,
+                 [&](size_t index) { height_m = std::min(height_m, height_above(p_WB, placed_[index])); });
+    for (const MoverBodies& mover_bodies : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
+      if ((p_WB - p_WM).head<2>().norm() > mover_bodies.radius_m) continue;
+      for (size_t k = 0; k < mover_bodies.count; ++k) {
+        height_m = std::min(height_m, height_above(p_WB, placed(mover_bodies, k, p_WM)));
       }
     }
     return height_m;
@@ -99,34 +103,34 @@ class CollisionWorld::World {
     };
     Collector collector([&](size_t index) { meet(placed_[index]); });
     btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(p_W + reach_m * direction_W), collector);
-    for (const Carried& carried : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(carried.motion, t_s);
-      for (size_t k = 0; k < carried.count; ++k) meet(placed(carried, k, p_WM));
+    for (const MoverBodies& mover_bodies : movers_) {
+      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
+      for (size_t k = 0; k < mover_bodies.count; ++k) meet(placed(mover_bodies, k, p_WM));
     }
     return nearest_m <= reach_m ? nearest_m : kInfinity;
   }
 
  private:
-  struct Part {
+  struct PartBody {
     ConvexBody body;
     Eigen::Vector3d center_B_m;
   };
 
-  // A mover's bodies: those from `first` on, placed in M; none is farther than the radius from M's origin.
-  struct Carried {
+  // Bodies of a mover: `count` from `first` on, placed in M, all within the radius of M's origin.
+  struct MoverBodies {
     scenes::Motion motion;
     size_t first = 0, count = 0;
     double radius_m = 0.0;
   };
 
-  struct Nearest {
+  struct NearestBody {
     double clearance_m;
     std::optional<size_t> body;
     Eigen::Vector3d point_W;
   };
 
-  // Places the next body, one that stands still, where it stays.
-  void place_still(const Eigen::Isometry3d& X_WS) {
+  // Places the next static body.
+  void place_static(const Eigen::Isometry3d& X_WS) {
     const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], X_WS);
     const Eigen::Vector3d center_W = X_WS.translation(), half_m = body.half_size_W();
     lowest_z_ = std::max(lowest_z_, center_W.z() + half_m.z());
@@ -134,25 +138,25 @@ class CollisionWorld::World {
     leaf->dataAsInt = static_cast<int>(placed_.size() - 1);
   }
 
-  // Places the bodies that are left, all movers', in M.
+  // Places the remaining bodies, all of movers, in M.
   void place_moving(const scenes::Scene& scene) {
     size_t solid_index = scene.solids.size();
     for (const scenes::Mover& mover : scene.movers) {
       scenes::require_motion(mover.motion);
-      Carried& carried = movers_.emplace_back(Carried{mover.motion, placed_.size()});
+      MoverBodies& mover_bodies = movers_.emplace_back(MoverBodies{mover.motion, placed_.size()});
       for (const Solid& solid : mover.solids) {
-        for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] == solid_index; ++carried.count) {
+        for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] == solid_index; ++mover_bodies.count) {
           const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], solid.X_WS);
           const double out_m = solid.X_WS.translation().norm() + body.body->bounding_radius_m;
-          carried.radius_m = std::max(carried.radius_m, out_m);
+          mover_bodies.radius_m = std::max(mover_bodies.radius_m, out_m);
         }
         ++solid_index;
       }
     }
   }
 
-  PlacedBody placed(const Carried& carried, size_t k, const Eigen::Vector3d& p_WM) const {
-    const PlacedBody& in_M = placed_[carried.first + k];
+  PlacedBody placed(const MoverBodies& mover_bodies, size_t k, const Eigen::Vector3d& p_WM) const {
+    const PlacedBody& in_M = placed_[mover_bodies.first + k];
     return {*in_M.body, Eigen::Translation3d(p_WM) * in_M.X_WS};
   }
 
@@ -160,7 +164,7 @@ class CollisionWorld::World {
     placed_parts_.clear();
     hull_box_W_.setEmpty();
     Eigen::Isometry3d X_WS = X_WB;
-    for (const Part& part : parts_) {
+    for (const PartBody& part : parts_) {
       X_WS.translation() = X_WB * part.center_B_m;
       placed_parts_.emplace_back(part.body, X_WS);
       const Eigen::Vector3d half_m = placed_parts_.back().half_size_W();
@@ -168,8 +172,8 @@ class CollisionWorld::World {
     }
   }
 
-  // Keeps the nearer of `nearest` and this body; of two equally near ones the lower index, whatever the order.
-  void consider(size_t index, const PlacedBody& body, Nearest& nearest) const {
+  // Updates `nearest` if this body is nearer. Of equally near bodies, the lower index counts in any order.
+  void consider(size_t index, const PlacedBody& body, NearestBody& nearest) const {
     for (const PlacedBody& part : placed_parts_) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
       const double part_radius_m = part.body->bounding_radius_m + kClosedFormErrorM;
@@ -189,7 +193,7 @@ class CollisionWorld::World {
 
   double ground_clearance() const {
     double lowest_z = -kInfinity;
-    for (const PlacedBody& part : placed_parts_) lowest_z = std::max(lowest_z, part.reach(Eigen::Vector3d::UnitZ()));
+    for (const PlacedBody& part : placed_parts_) lowest_z = std::max(lowest_z, part.extent(Eigen::Vector3d::UnitZ()));
     return -lowest_z;
   }
 
@@ -198,29 +202,29 @@ class CollisionWorld::World {
     return direction_W.z() > 0.0 ? -p_W.z() / direction_W.z() : kInfinity;
   }
 
-  // Length of the plumb line from p_W to one body: 0 inside, +inf when it misses.
-  static double plumb_line(const Eigen::Vector3d& p_W, const PlacedBody& body) {
+  // Returns the height of p_W above one body: 0 inside, +inf if the vertical misses it.
+  static double height_above(const Eigen::Vector3d& p_W, const PlacedBody& body) {
     return body.body->ray_length(body.X_SW * p_W, body.X_SW.linear().col(2));
   }
 
   template <class Visit>
-  void visit_still(const Eigen::Vector3d& min_W, const Eigen::Vector3d& max_W, Visit visit) const {
+  void visit_static(const Eigen::Vector3d& min_W, const Eigen::Vector3d& max_W, Visit visit) const {
     Collector<Visit> collector(std::move(visit));
     tree_.collideTV(tree_.m_root, btDbvtVolume::FromMM(to_bullet(min_W), to_bullet(max_W)), collector);
   }
 
   bool has_ground_;
-  std::vector<Part> parts_;
-  std::vector<ConvexBody> bodies_;  // of the solids in order, those of the movers last
+  std::vector<PartBody> parts_;
+  std::vector<ConvexBody> bodies_;  // of the solids in order, then those of the movers
   std::vector<size_t> solid_of_;    // index of each body's solid
-  std::vector<PlacedBody> placed_;  // in W; from still_ on in M
-  size_t still_ = 0;                // number of bodies that stand still
-  std::vector<Carried> movers_;
-  btDbvt tree_;                   // of what stands still
-  double lowest_z_ = -kInfinity;  // of what stands still, in W
+  std::vector<PlacedBody> placed_;  // in W; from static_count_ on in M
+  size_t static_count_ = 0;         // bodies that do not move
+  std::vector<MoverBodies> movers_;
+  btDbvt tree_;                   // of static bodies
+  double lowest_z_ = -kInfinity;  // of static bodies, in W
   std::optional<size_t> last_nearest_;
 
-  // The hull at the pose of the query under way.
+  // The hull at the pose of the present query.
   std::vector<PlacedBody> placed_parts_;
   Eigen::AlignedBox3d hull_box_W_;
 };
@@ -240,6 +244,11 @@ double CollisionWorld::height_above_surface(const Eigen::Vector3d& p_WB, double 
 double CollisionWorld::distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
                                       double t_s) const {
   return world_->distance_along(p_W, direction_W, reach_m, t_s);
+}
+
+std::string bullet_version() {
+  const int version = btGetVersion();
+  return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100);
 }
 
 }  // namespace hedgehop::sim

@@ -1,4 +1,4 @@
-#include "sim/collision/separation.h"
+#include "sim/collision/convex_body.h"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
@@ -11,44 +11,44 @@ static_assert(sizeof(btScalar) == sizeof(double), "Bullet's double-precision lib
 
 namespace {
 
-constexpr double kExactM = 1e-7;       // what a distance may be off
-constexpr int kMaxProjections = 2000;  // tens are enough for the worst of a million random pairs
+constexpr double kExactM = 1e-7;       // tolerance of a distance
+constexpr int kMaxProjections = 2000;  // the worst of a million random pairs needs tens
 
 Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-// Width of the slab square to the unit vector n that fits between the bodies, the second one ahead: a lower bound of
-// their distance, < 0 when none fits.
+// Returns the width of the slab normal to the unit vector n between the bodies, the second one ahead: a lower bound of
+// their distance; < 0 if there is none.
 double slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
-  return -second.reach(-n) - first.reach(n);
+  return -second.extent(-n) - first.extent(n);
 }
 
-// The widest slab among those square to `n` and to the bodies' own faces.
-double widest_slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
-  double widest_m = slab_m(first, second, n);
+// Returns the maximum slab width among those normal to `n` and to the bodies' faces.
+double max_slab_m(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& n) {
+  double max_m = slab_m(first, second, n);
   for (const PlacedBody* body : {&first, &second}) {
     for (const Eigen::Vector3d& n_S : body->body->normals_S) {
       const Eigen::Vector3d n_W = body->X_WS.linear() * n_S;
-      widest_m = std::max({widest_m, slab_m(first, second, n_W), slab_m(first, second, -n_W)});
+      max_m = std::max({max_m, slab_m(first, second, n_W), slab_m(first, second, -n_W)});
     }
   }
-  return widest_m;
+  return max_m;
 }
 
 Eigen::Vector3d direction(const Separation& apart) { return (apart.on_second_W - apart.on_first_W).normalized(); }
 
-bool is_proved(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
+bool is_certified(const PlacedBody& first, const PlacedBody& second, const Separation& apart) {
   return apart.distance_m == 0.0 || apart.distance_m - slab_m(first, second, direction(apart)) <= kExactM;
 }
 
-// From a point `a` of the first body, projections to the one body and back, with momentum that restarts when it points
-// uphill, lead to the nearest points, or to a common one. The result is proved unless it is nearer than kExactM.
+// Alternating projections from a point `a` of the first body, with momentum that restarts when the distance grows. They
+// converge to the nearest points, or to a common one. The result is certified unless it is nearer than kExactM.
 Separation separate_by_projections(const PlacedBody& first, const PlacedBody& second, const Eigen::Vector3d& a) {
   Separation best{0.0, a, second.nearest(a)};
   Eigen::Vector3d previous_a = a;
   double momentum = 1.0;
   for (int i = 0; i < kMaxProjections; ++i) {
     best.distance_m = (best.on_second_W - best.on_first_W).norm();
-    if (best.distance_m <= kExactM || is_proved(first, second, best)) break;
+    if (best.distance_m <= kExactM || is_certified(first, second, best)) break;
     double next_momentum = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
     const Eigen::Vector3d step = best.on_first_W - previous_a;
     const Eigen::Vector3d ahead = best.on_first_W + (momentum - 1.0) / next_momentum * step;
@@ -62,8 +62,8 @@ Separation separate_by_projections(const PlacedBody& first, const PlacedBody& se
   return best;
 }
 
-// The nearest point of a body to a sphere is the one to its center; inside, the way out is as long as the center is
-// deep.
+// The point of a body nearest to a sphere is the one nearest to its center. If the center is inside the body, the depth
+// of the center gives the depth of the overlap.
 Separation separate_from_sphere(const PlacedBody& body, const PlacedBody& sphere) {
   const Eigen::Vector3d center_W = sphere.X_WS.translation(), on_body_W = body.nearest(center_W);
   const double radius_m = sphere.body->half_extents_m.x(), apart_m = (center_W - on_body_W).norm();
@@ -86,26 +86,26 @@ Separation separate(const PlacedBody& first, const PlacedBody& second) {
   Eigen::Vector3d start_W = first.X_WS.translation();
   if (btGjkEpaSolver2::Distance(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found)) {
     const Separation apart{found.distance, to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};
-    if (apart.distance_m > kExactM && is_proved(first, second, apart)) return apart;
+    if (apart.distance_m > kExactM && is_certified(first, second, apart)) return apart;
     start_W = first.nearest(apart.on_first_W);
   }
 
-  // Bullet's search stops early at about one pair in a thousand, off by up to meters: what it cannot prove is measured
-  // a second way.
+  // Bullet's search ends too early for about one pair in a thousand, with errors up to meters. Results that it cannot
+  // certify are computed by a second method.
   Separation apart = separate_by_projections(first, second, start_W);
-  if (apart.distance_m > kExactM && is_proved(first, second, apart)) return apart;
+  if (apart.distance_m > kExactM && is_certified(first, second, apart)) return apart;
 
-  // Where a face is parallel to an edge but for some 1e-6 rad, the nearest points slide on and on; the slab between the
-  // bodies is then square to the face.
+  // If a face and an edge are parallel to about 1e-6 rad, the projections do not converge. The slab between the bodies
+  // is then normal to the face.
   if (apart.distance_m > kExactM) {
-    const double widest_m = widest_slab_m(first, second, direction(apart));
-    if (widest_m > kExactM) {
-      apart.distance_m = std::min(apart.distance_m, widest_m);
+    const double max_m = max_slab_m(first, second, direction(apart));
+    if (max_m > kExactM) {
+      apart.distance_m = std::min(apart.distance_m, max_m);
       return apart;
     }
   }
 
-  // Overlapping, or too close to decide: compute the depth. No result means that they are just in contact.
+  // The bodies overlap or are too close to decide: compute the depth. Without a result they are in contact.
   constexpr bool kUseMargins = false;
   if (btGjkEpaSolver2::Penetration(a, first.bullet_X_WS, b, second.bullet_X_WS, guess, found, kUseMargins)) {
     return {std::min(found.distance, 0.0), to_eigen(found.witnesses[0]), to_eigen(found.witnesses[1])};

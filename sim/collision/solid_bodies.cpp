@@ -8,29 +8,29 @@ namespace {
 using dynamics::HullPart;
 using scenes::Solid;
 
-constexpr double kRoundingM = 1e-9;  // by which a convex body's corners may lie outside its faces
+constexpr double kRoundingM = 1e-9;  // tolerance of corners outside the faces of a convex body
 
-void require_extents(const Eigen::Vector3d& half_extents_m, const std::string& what) {
+void require_extents(const Eigen::Vector3d& half_extents_m, const std::string& name) {
   if (!half_extents_m.allFinite() || half_extents_m.minCoeff() <= 0.0) {
-    throw std::invalid_argument(what + ": half extents must be finite and above 0");
+    throw std::invalid_argument(name + ": half extents must be finite and above 0");
   }
 }
 
-void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex, const std::string& what) {
-  const auto refuse = [&](const char* why) { throw std::invalid_argument(what + ": " + why); };
+void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex, const std::string& name) {
+  const auto refuse = [&](const char* why) { throw std::invalid_argument(name + ": " + why); };
   if (polyhedron.faces.empty()) refuse("a polyhedron needs faces");
   for (const Eigen::Vector3d& corner : polyhedron.corners) {
     if (!corner.allFinite()) refuse("corners must be finite");
   }
   for (const auto& face : polyhedron.faces) {
     for (const uint32_t corner : face) {
-      if (corner >= polyhedron.corners.size()) refuse("a face has a corner that is not there");
+      if (corner >= polyhedron.corners.size()) refuse("a face has a corner index out of range");
     }
     const Eigen::Vector3d a = polyhedron.corners[face[0]];
     const Eigen::Vector3d n = (polyhedron.corners[face[1]] - a).cross(polyhedron.corners[face[2]] - a);
     if (n.norm() == 0.0) refuse("a face has no area");
     for (const Eigen::Vector3d& corner : polyhedron.corners) {
-      if (convex && n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, its faces outward");
+      if (convex && n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, with outward faces");
     }
   }
   if (convex && polyhedron.faces.size() < 4) refuse("a hull needs at least 4 faces");
@@ -38,43 +38,43 @@ void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex,
 
 }  // namespace
 
-ConvexBody make_body(const HullPart& part, const std::string& what) {
-  require_extents(part.half_extents_m, what);
-  if (!part.center_B_m.allFinite()) throw std::invalid_argument(what + ": the center must be finite");
+ConvexBody make_body(const HullPart& part, const std::string& name) {
+  require_extents(part.half_extents_m, name);
+  if (!part.center_B_m.allFinite()) throw std::invalid_argument(name + ": the center must be finite");
   if (part.shape == HullPart::Shape::box) return {ConvexBody::Shape::box, part.half_extents_m};
   if (part.half_extents_m.x() != part.half_extents_m.y()) {
-    throw std::invalid_argument(what + ": a cylinder's first two half extents are its radius and must be equal");
+    throw std::invalid_argument(name + ": a cylinder's first two half extents are its radius and must be equal");
   }
   return {ConvexBody::Shape::cylinder, part.half_extents_m};
 }
 
 std::vector<ConvexBody> make_bodies(const Solid& solid) {
-  const std::string what = "solid '" + solid.name + "'";
-  if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(what + ": the pose must be finite");
+  const std::string name = "solid '" + solid.name + "'";
+  if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(name + ": the pose must be finite");
   const Eigen::Vector3d& half_m = solid.half_extents_m;
   std::vector<ConvexBody> bodies;
   switch (solid.shape) {
     case Solid::Shape::box:
-      require_extents(half_m, what);
+      require_extents(half_m, name);
       bodies.emplace_back(ConvexBody::Shape::box, half_m);
       break;
     case Solid::Shape::cylinder:
-      require_extents(half_m, what);
-      if (half_m.x() != half_m.y()) throw std::invalid_argument(what + ": a cylinder's first two half extents differ");
+      require_extents(half_m, name);
+      if (half_m.x() != half_m.y()) throw std::invalid_argument(name + ": a cylinder's first two half extents differ");
       bodies.emplace_back(ConvexBody::Shape::cylinder, half_m);
       break;
     case Solid::Shape::sphere:
-      require_extents(half_m, what);
+      require_extents(half_m, name);
       if (half_m.minCoeff() != half_m.maxCoeff())
-        throw std::invalid_argument(what + ": a sphere's half extents differ");
+        throw std::invalid_argument(name + ": a sphere's half extents differ");
       bodies.emplace_back(ConvexBody::Shape::sphere, half_m);
       break;
     case Solid::Shape::hull:
-      require_polyhedron(solid.polyhedron, true, what);
+      require_polyhedron(solid.polyhedron, true, name);
       bodies.emplace_back(solid.polyhedron);
       break;
     case Solid::Shape::surface:
-      require_polyhedron(solid.polyhedron, false, what);
+      require_polyhedron(solid.polyhedron, false, name);
       for (const auto& [a, b, c] : solid.polyhedron.faces) {
         const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
         bodies.emplace_back(scenes::mesh::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});

@@ -10,6 +10,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
+#include "sim/flight/flight.h"
 #include "sim/libm/random.h"
 #include "sim/sweep/optimize.h"
 
@@ -18,9 +19,9 @@ namespace {
 
 using Coordinates = std::vector<double>;
 
-constexpr double kInfeasibleCost = 50.0;  // m, above any margin of interest
-constexpr int kRedraws = 20;              // of an infeasible point of a generation
-constexpr double kMinDistance = 0.1;      // share of the ranges: failures closer to each other count as one
+constexpr double kInfeasibleCost = kMaxClearanceM;  // above any robustness
+constexpr int kRedraws = 20;                        // of an infeasible point of a generation
+constexpr double kMinDistance = 0.1;                // share of the ranges: failures closer to each other count as one
 
 /// Thrown to end a search: interrupted, budget exhausted, or all required failures found.
 struct SearchEnds {};

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/flight/flight.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -12,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMinFailure = 1e-6;  // keeps the robustness of a check that fails exactly at its limit below 0
 constexpr double kCrash = -1.0;       // below a collision, which is about 0
-constexpr double kClearPass = 50.0;   // no obstacle within range, or no checks
+constexpr double kClearPass = kMaxClearanceM;  // no obstacle within range, or no checks
 
 double scale_of(const std::string& unit) {
   if (unit == "s") return 10.0;

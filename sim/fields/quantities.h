@@ -9,7 +9,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline double square(double x) { return x * x; }
 
-/// Returns a time or duration of the loop, ns, in s.
+/// Returns a time or duration in s. @param t_ns  in ns.
 inline double seconds(int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
 
 }  // namespace hedgehop

@@ -81,6 +81,9 @@ struct NamedUnit {
   std::string name, unit;
 };
 
+/// Clearances are searched up to this distance, m. Solids farther away count as absent.
+inline constexpr double kMaxClearanceM = 50.0;
+
 /// The minimum distance of the hull to an obstacle or the ground, and its time; +inf if it was never within range.
 struct ClosestApproach {
   double distance_m = 0.0;

@@ -1,12 +1,13 @@
-// The mathematical functions of whatever is linked against Hedgehop's libraries, with equal bits on every processor.
+// Mathematical functions of programs linked with Hedgehop's libraries, with equal bits on every processor.
 //
-// The C library's own choose their instructions by processor: with fused multiply-add they round otherwise. These
-// take their place by name and call SLEEF's variants without it. Hidden: shared libraries keep the C library's.
-// Sine and cosine are those of both together, for only the optimizer decides which of the three is called.
-// fmod, remainder, round, ldexp and sqrt are exact in every library, and are left to it.
+// The functions of the C library select instructions by processor; with fused multiply-add they round differently.
+// These functions replace them by name and call SLEEF's variants without fused multiply-add. They are hidden, so shared
+// libraries keep those of the C library. Sine and cosine both use the function for sine and cosine together, because
+// the optimizer decides which of the three is called. fmod, remainder, round, ldexp and sqrt are exact in every C
+// library and are not replaced.
 #include <sleef.h>
 
-// C's own names, without <cmath>, which would declare them for everyone.
+// The names of the C library, without <cmath>, which would declare them.
 
 namespace {
 __m128d lane(double x) { return _mm_set_sd(x); }
@@ -14,7 +15,7 @@ double value(__m128d x) { return _mm_cvtsd_f64(x); }
 __m128 lane(float x) { return _mm_set_ss(x); }
 float value(__m128 x) { return _mm_cvtss_f32(x); }
 
-// From here log(1 + x) is log(x); SLEEF's own log1p ends in infinity at 2.7e307.
+// From here log(1 + x) is log(x); SLEEF's log1p returns infinity from 2.7e307.
 constexpr double kLargeForLog1p = 1e17;
 constexpr float kLargeForLog1pf = 1e9F;
 }  // namespace

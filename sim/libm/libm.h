@@ -4,7 +4,7 @@
 
 namespace hedgehop::sim {
 
-/// "SLEEF 3.5.1": whose functions are those of sin, exp and the like in all that is linked against Hedgehop.
+/// Returns the library that provides sin, exp and similar functions in programs linked with Hedgehop: "SLEEF 3.5.1".
 std::string libm_version();
 
 }  // namespace hedgehop::sim

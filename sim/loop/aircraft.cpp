@@ -32,14 +32,14 @@ void Aircraft::move(int64_t tick) {
 dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world, int64_t tick) {
   surroundings_ = {&world, ticks_.t_s(tick)};
   // They capture a single pointer each: a std::function would allocate for more.
-  const auto height_beside = [this](double north_m, double east_m) {
+  const auto height_at_offset = [this](double north_m, double east_m) {
     return surroundings_.world->height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0),
                                                      surroundings_.t_s);
   };
   const auto beam_distance = [this](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
     return surroundings_.world->distance_along(p_W, direction_W, reach_m, surroundings_.t_s);
   };
-  return {body(), vehicle_.specific_force_B(), height_beside(0.0, 0.0), height_beside, beam_distance};
+  return {body(), vehicle_.specific_force_B(), height_at_offset(0.0, 0.0), height_at_offset, beam_distance};
 }
 
 Eigen::Isometry3d Aircraft::X_WB() const {

@@ -10,13 +10,6 @@
 #include "sim/loop/module_pilot.h"
 
 namespace hedgehop::sim {
-namespace {
-
-/// Search radius for solids around the hull, m: larger clearances are not of interest.
-constexpr double kSearchRadiusM = 50.0;
-
-}  // namespace
-
 Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher,
                  MapObserver* map_observer)
     : scenario_(scenario),
@@ -112,14 +105,14 @@ avoidance::Observation Episode::observation() const {
 }
 
 void Episode::measure_proximity() {
-  proximity_ = environment_.collision.query(aircraft_.X_WB(), kSearchRadiusM, ticks_.t_s(tick_));
+  proximity_ = environment_.collision.query(aircraft_.X_WB(), kMaxClearanceM, ticks_.t_s(tick_));
   log_.add(ticks_.t_s(tick_), aircraft_.body().p_WB, proximity_);
 }
 
 BodyMotion Episode::motion() const {
   BodyMotion motion = aircraft_.motion();
   motion.clearance_m =
-      std::clamp(std::min(proximity_.obstacle_clearance_m, proximity_.ground_clearance_m), 0.0, kSearchRadiusM);
+      std::clamp(std::min(proximity_.obstacle_clearance_m, proximity_.ground_clearance_m), 0.0, kMaxClearanceM);
   return motion;
 }
 

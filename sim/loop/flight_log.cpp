@@ -33,12 +33,6 @@ CommandColumns columns(const Variant& command) {
 
 }  // namespace
 
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q_WB) {
-  const Eigen::Matrix3d R_WB = q_WB.toRotationMatrix();
-  return {std::atan2(R_WB(2, 1), R_WB(2, 2)), std::asin(std::clamp(-R_WB(2, 0), -1.0, 1.0)),
-          std::atan2(R_WB(1, 0), R_WB(0, 0))};
-}
-
 void FlightLog::set_signals(const std::vector<avoidance::Signal>& signals) {
   for (const avoidance::Signal& signal : signals) flight_.signals.push_back({signal.name, signal.unit});
   flight_.result.closest_obstacle.distance_m = kInfinity;
@@ -65,11 +59,11 @@ void FlightLog::add(double t_s, const Aircraft& aircraft, const dynamics::contro
   const CommandColumns command = columns(setpoint);
   flight_.trajectory.push_back({.t_s = t_s,
                                 .p_WB_true = body.p_WB,
-                                .rpy_true = roll_pitch_yaw(body.q_WB),
+                                .rpy_true = dynamics::to_roll_pitch_heading(body.q_WB),
                                 .v_WB_W_true = body.q_WB * body.v_WB_B,
                                 .w_WB_B_true = body.w_WB_B,
                                 .p_WB_est = navigation.p_WB_est,
-                                .rpy_est = roll_pitch_yaw(navigation.q_WB_est),
+                                .rpy_est = dynamics::to_roll_pitch_heading(navigation.q_WB_est),
                                 .v_WB_W_est = navigation.q_WB_est * navigation.v_WB_B_est,
                                 .v_WB_W_cmd = command.v_WB_W,
                                 .altitude_cmd_m = command.altitude_m,

@@ -58,7 +58,4 @@ class FlightLog {
   TrajectoryHash hash_;
 };
 
-/// Returns roll, pitch, yaw (3-2-1) of a body attitude, rad.
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q_WB);
-
 }  // namespace hedgehop::sim

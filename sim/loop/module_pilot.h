@@ -9,7 +9,7 @@
 
 #include "avoidance/module.h"
 #include "dynamics/avionics.h"
-#include "dynamics/control/setpoint.h"
+#include "dynamics/control/autopilot.h"
 #include "dynamics/hull.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/route.h"

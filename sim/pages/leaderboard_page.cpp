@@ -11,6 +11,7 @@
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
 #include "sim/config/input_error.h"
+#include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
 #include "sim/record/json_number.h"
 #include "sim/record/whole_file.h"

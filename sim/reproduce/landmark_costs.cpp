@@ -1,7 +1,6 @@
 #include "sim/reproduce/landmark_costs.h"
 
-#include <algorithm>
-
+#include "sim/fields/order_statistics.h"
 #include "sim/libm/random.h"
 #include "sim/reproduce/corner_flight.h"
 
@@ -24,9 +23,7 @@ CornerFlight flight_past(int corners) {
 
 double image_ms(int corners) {
   std::vector<double> costs_ms = fly_past_corners(flight_past(corners), {}, 1).filter_ms;
-  const auto middle = costs_ms.begin() + static_cast<std::ptrdiff_t>(costs_ms.size() / 2);
-  std::ranges::nth_element(costs_ms, middle);
-  return *middle;
+  return upper_median(costs_ms);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <opencv2/core.hpp>
 
+#include "sim/fields/order_statistics.h"
 #include "vision/sections/section_search.h"
 
 namespace hedgehop::sim {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr int kRounds = 41;
 constexpr double kThresholdM = 9.144, kMostShare = 0.15;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 struct Candidate {
   int side;
@@ -48,9 +43,9 @@ Columns section_costs() {
   }
 
   Columns columns;
-  const double least_ms = median(candidates.front().costs_ms);
-  for (const Candidate& candidate : candidates) {
-    const double cost_ms = median(candidate.costs_ms);
+  const double least_ms = upper_median(candidates.front().costs_ms);
+  for (Candidate& candidate : candidates) {
+    const double cost_ms = upper_median(candidate.costs_ms);
     columns["sections"].push_back(candidate.side * candidate.side);
     columns["cost_ms"].push_back(cost_ms);
     columns["decisions_hz"].push_back(1000.0 / cost_ms);

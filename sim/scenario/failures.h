@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/actuator_fault.h"
-#include "dynamics/sensors/sensor_failures.h"
+#include "dynamics/actuators.h"
+#include "dynamics/sensors/sensor_errors.h"
 #include "dynamics/vehicle.h"
 #include "sim/config/input_error.h"
 #include "sim/fields/field.h"

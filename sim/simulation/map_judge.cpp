@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/verdict/corner_sight.h"
+#include "sim/verdict/map_score.h"
 
 namespace hedgehop::sim {
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/collision/bullet_version.h"
+#include "sim/collision/proximity.h"
 #include "sim/flight/build.h"
 #include "sim/libm/libm.h"
 #include "sim/loop/episode.h"

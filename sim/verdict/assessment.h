@@ -9,9 +9,23 @@
 
 namespace hedgehop::sim {
 
-/// Adds to a flown flight's result what follows from the record alone: how difficult the scene was, the field's
-/// metrics, and the scenario's checks.
+/// Adds to the result of a flight the scene's difficulty figures, the metrics of the field and the scenario's checks,
+/// all computed from the record.
 void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
             Flight& flight);
+
+/// Evaluates the checks of a scenario on a completed flight, in the order of the scenario. NoCollisionCheck is
+/// evaluated once: last if the scenario does not list it, never if the scenario sets `may_collide`. An empty result
+/// means that the flight has no checks.
+/// @param scene           the scene of the flight.
+/// @param rotor_radius_m  radius of the disc that covers floor cells, > 0.
+std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,
+                                         double rotor_radius_m);
+
+/// Returns the share of the square cells of a plan whose centers a disc covers while it moves along a path, 0..1.
+/// @param plan_NE_m  north, east extent. Cells start at its south-west corner; those cut by the other edges count too.
+/// @param path_NE_m  positions, dense enough to represent the curve.
+double visited_share(const Eigen::AlignedBox2d& plan_NE_m, double cell_m, const std::vector<Eigen::Vector2d>& path_NE_m,
+                     double disc_radius_m);
 
 }  // namespace hedgehop::sim

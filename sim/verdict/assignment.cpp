@@ -11,8 +11,8 @@ using Eigen::Index;
 
 constexpr Index kNone = -1;
 
-/// Grows an assignment by one row at a time: the cheapest path that alternates between columns not yet and already
-/// assigned is found by Dijkstra's method over reduced costs, which the prices of rows and columns keep >= 0.
+/// Extends an assignment by one row at a time. Dijkstra's method finds the augmenting path of minimum cost; the prices
+/// of rows and columns keep the reduced costs >= 0.
 class Augmenter {
  public:
   explicit Augmenter(const Eigen::MatrixXd& cost)
@@ -23,7 +23,7 @@ class Augmenter {
 
   void assign(Index row) {
     Eigen::VectorXd distance = Eigen::VectorXd::Constant(cost_.cols(), kInfinity);
-    std::vector<Index> before(row_of_.size(), kNone);  // the column that a path comes from; none for `row` itself
+    std::vector<Index> before(row_of_.size(), kNone);  // previous column of the path; kNone for `row` itself
     std::vector<char> settled(row_of_.size(), 0);
     Index from = kNone, free = kNone;
     double so_far = 0.0;
@@ -67,7 +67,7 @@ class Augmenter {
 
 }  // namespace
 
-std::vector<std::optional<Index>> least_cost_assignment(const Eigen::MatrixXd& cost) {
+std::vector<std::optional<Index>> min_cost_assignment(const Eigen::MatrixXd& cost) {
   const bool turned = cost.rows() > cost.cols();
   const Eigen::MatrixXd wide = turned ? Eigen::MatrixXd(cost.transpose()) : cost;
   Augmenter augmenter(wide);
@@ -89,7 +89,7 @@ std::vector<std::optional<Index>> match_points(std::span<const Eigen::Vector3d> 
                                                double tolerance_m) {
   const auto rows = static_cast<Index>(a.size()), columns = static_cast<Index>(b.size());
   if (rows == 0 || columns == 0) return std::vector<std::optional<Index>>(a.size());
-  // A pair that is too far apart costs more than all good pairs together can, so that none displaces a good one.
+  // A pair beyond the tolerance costs more than all valid pairs together, so that it never displaces a valid one.
   const double refused_m = tolerance_m * static_cast<double>(std::min(rows, columns) + 1);
   Eigen::MatrixXd cost_m(rows, columns);
   for (Index i = 0; i < rows; ++i) {
@@ -98,7 +98,7 @@ std::vector<std::optional<Index>> match_points(std::span<const Eigen::Vector3d> 
       cost_m(i, j) = distance_m <= tolerance_m ? distance_m : refused_m;
     }
   }
-  std::vector<std::optional<Index>> partners = least_cost_assignment(cost_m);
+  std::vector<std::optional<Index>> partners = min_cost_assignment(cost_m);
   for (Index i = 0; i < rows; ++i) {
     std::optional<Index>& partner = partners[static_cast<size_t>(i)];
     if (partner && cost_m(i, *partner) > tolerance_m) partner.reset();

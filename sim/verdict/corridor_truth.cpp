@@ -14,13 +14,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// How far from p in a direction a line through a and b is met, m.
-double reach_m(const Vector2d& p, const Vector2d& direction, const Vector2d& a, const Vector2d& b) {
+/// Returns the distance from p along a direction to the line through a and b, m.
+double distance_to_line_m(const Vector2d& p, const Vector2d& direction, const Vector2d& a, const Vector2d& b) {
   const Vector2d along = b - a, normal(-along.y(), along.x());
   return normal.dot(a - p) / normal.dot(direction);
 }
 
-/// Half the difference between each known signal and the truth.
+/// Returns half the absolute difference between each finite signal and the truth.
 std::vector<double> centering_deviations(const scenes::worlds::CorridorPlan& plan, const Flight& flight) {
   const auto signal = std::ranges::find(flight.signals, "centering_error", &NamedUnit::name);
   std::vector<double> deviations;
@@ -46,7 +46,7 @@ double mean(const std::vector<double>& values) {
 
 CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Vector2d& p_NE) {
   CorridorPlace place;
-  double nearest_m = std::numeric_limits<double>::infinity(), begun_m = 0.0;
+  double nearest_m = std::numeric_limits<double>::infinity(), passed_m = 0.0;
   for (size_t k = 0; k + 1 < plan.middles_NE.size(); ++k) {
     const Vector2d section = plan.middles_NE[k + 1] - plan.middles_NE[k], along = section.normalized();
     const Vector2d right(-along.y(), along.x());
@@ -54,10 +54,10 @@ CorridorPlace corridor_place(const scenes::worlds::CorridorPlan& plan, const Vec
     const double off_m = (plan.middles_NE[k] + along_m * along - p_NE).norm();
     if (off_m < nearest_m) {
       nearest_m = off_m;
-      place = {reach_m(p_NE, -right, plan.lefts_NE[k], plan.lefts_NE[k + 1]),
-               reach_m(p_NE, right, plan.rights_NE[k], plan.rights_NE[k + 1]), begun_m + along_m};
+      place = {distance_to_line_m(p_NE, -right, plan.lefts_NE[k], plan.lefts_NE[k + 1]),
+               distance_to_line_m(p_NE, right, plan.rights_NE[k], plan.rights_NE[k + 1]), passed_m + along_m};
     }
-    begun_m += section.norm();
+    passed_m += section.norm();
   }
   return place;
 }
@@ -68,17 +68,17 @@ std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight
   const scenes::worlds::CorridorPlan plan =
       scenes::worlds::plan_corridor(*corridor, stream_seed(scenario.seed, kSceneStream));
   std::vector<double> offs_m;
-  double late_m = std::numeric_limits<double>::quiet_NaN();
+  double settled_m = std::numeric_limits<double>::quiet_NaN();
   constexpr double kSettledM = 15.0;
   const double begin_m = corridor_place(plan, flight.trajectory.front().p_WB_true.head<2>()).along_m;
   for (const TrajectoryRow& row : flight.trajectory) {
     const CorridorPlace place = corridor_place(plan, row.p_WB_true.head<2>());
     offs_m.push_back(0.5 * std::abs(place.right_m - place.left_m));
-    if (place.along_m >= begin_m + kSettledM) late_m = std::fmax(late_m, offs_m.back());
+    if (place.along_m >= begin_m + kSettledM) settled_m = std::fmax(settled_m, offs_m.back());
   }
   std::vector<MetricValue> metrics = {{"off_middle_mean_m", mean(offs_m), "m"},
                                       {"off_middle_max_m", *std::ranges::max_element(offs_m), "m"},
-                                      {"off_middle_after_15m_m", late_m, "m"}};
+                                      {"off_middle_after_15m_m", settled_m, "m"}};
   std::vector<double> deviations = centering_deviations(plan, flight);
   if (!deviations.empty()) {
     std::ranges::sort(deviations);

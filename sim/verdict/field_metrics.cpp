@@ -4,26 +4,84 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/rigid_body.h"
 #include "sim/collision/proximity.h"
 #include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {
 namespace {
 
+/// Advances in steps of clearance over maximum closing speed, so that no contact is missed.
+std::optional<double> time_to_collision_s(CollisionWorld& world, const scenes::Scene& scene, Eigen::Isometry3d X_WB,
+                                          const Eigen::Vector3d& v_WB_W, double t_s, double horizon_s) {
+  constexpr double kContactM = 1e-3, kMinSpeedMps = 1e-3, kMinStepS = 1e-4, kMaxStepS = 0.1;
+  const Eigen::Vector3d start_W = X_WB.translation();
+  for (double after_s = 0.0; after_s <= horizon_s;) {
+    double mover_mps = 0.0;
+    for (const scenes::Mover& mover : scene.movers) {
+      mover_mps = std::max(mover_mps, scenes::v_WM(mover.motion, t_s + after_s).norm());
+    }
+    const double closing_mps = std::max(kMinSpeedMps, v_WB_W.norm() + mover_mps);
+    X_WB.translation() = start_W + after_s * v_WB_W;
+    const double reach_m = closing_mps * horizon_s + kContactM;
+    const double clearance_m = world.query(X_WB, reach_m, t_s + after_s).obstacle_clearance_m;
+    if (clearance_m <= kContactM) return after_s;
+    // A mover may start during the step, so steps are short in scenes with movers.
+    const double step_s = std::max(kMinStepS, clearance_m / closing_mps);
+    after_s += scene.movers.empty() ? step_s : std::min(step_s, kMaxStepS);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<double> time_to_collision_s(const scenes::Scene& scene, const std::vector<dynamics::HullPart>& hull,
+                                          const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& v_WB_W, double t_s,
+                                          double horizon_s) {
+  CollisionWorld world(scene, hull);
+  return time_to_collision_s(world, scene, X_WB, v_WB_W, t_s, horizon_s);
+}
+
+std::optional<double> time_to_collision_at_reaction_s(const Flight& flight, const scenes::Scene& scene,
+                                                      const std::vector<dynamics::HullPart>& hull) {
+  constexpr double kHorizonS = 10.0, kSameTickS = 1e-6;
+  const bool collided = flight.result.outcome == Outcome::collided;
+  std::optional<double> min_s;
+  bool predicted = false;  // a collision, by a reaction within kHorizonS before the end
+  CollisionWorld world(scene, hull);
+  for (size_t i = 1; i < flight.decisions.size(); ++i) {
+    const DecisionRow& decision = flight.decisions[i];
+    if (decision.status == "cruise" || decision.status == flight.decisions[i - 1].status) continue;
+    const double effect_s = decision.t_s + flight.command_latency_s;
+    const auto row = std::ranges::lower_bound(flight.trajectory, effect_s - kSameTickS, {}, &TrajectoryRow::t_s);
+    if (row == flight.trajectory.end()) break;  // the flight ended before
+    Eigen::Isometry3d X_WB(dynamics::from_roll_pitch_heading(row->rpy_true.x(), row->rpy_true.y(), row->rpy_true.z()));
+    X_WB.translation() = row->p_WB_true;
+    const auto left_s = time_to_collision_s(world, scene, X_WB, row->v_WB_W_true, row->t_s, kHorizonS);
+    if (!left_s) continue;
+    min_s = std::min(*left_s, min_s.value_or(kHorizonS));
+    predicted = predicted || row->t_s >= flight.result.flight_time_s - kHorizonS;
+  }
+  if (collided && !predicted) return 0.0;
+  return min_s;
+}
+
+namespace {
+
 using Rows = std::vector<TrajectoryRow>;
 
-/// Path length of a free flight from the first position to the goal's circle, m: a disc of the vehicle's radius at the
-/// goal's altitude.
+/// Returns the length of the shortest free path from the start to the goal's circle for a disc of the vehicle's radius
+/// at the goal's altitude, m.
 std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::Vector3d& start_W,
                                            const scenes::Scene& scene, double vehicle_radius_m) {
-  constexpr double kHalfThicknessM = 0.05, kFinestCellM = 0.25, kMostCells = 400.0, kMarginM = 5.0, kAtStartS = 0.0;
+  constexpr double kHalfThicknessM = 0.05, kMinCellM = 0.25, kMaxCells = 400.0, kMarginM = 5.0, kAtStartS = 0.0;
   const dynamics::HullPart disc{.shape = dynamics::HullPart::Shape::cylinder,
                                 .half_extents_m = {vehicle_radius_m, vehicle_radius_m, kHalfThicknessM}};
   CollisionWorld world(scene, {disc});
   Eigen::AlignedBox2d bounds = scene.bounds_NE_m;
   bounds.extend(Eigen::Vector2d(start_W.head<2>())).extend(Eigen::Vector2d(goal.p_WG().head<2>()));
   bounds = {bounds.min().array() - kMarginM, bounds.max().array() + kMarginM};
-  const double cell_m = std::max(kFinestCellM, bounds.sizes().maxCoeff() / kMostCells);
+  const double cell_m = std::max(kMinCellM, bounds.sizes().maxCoeff() / kMaxCells);
   const auto is_free = [&](const Eigen::Vector2d& p_NE_m) {
     Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
     X_WB.translation() = Eigen::Vector3d(p_NE_m.x(), p_NE_m.y(), goal.p_WG().z());
@@ -34,21 +92,21 @@ std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::
   return std::max(0.0, *length_m - goal.radius_m);
 }
 
-/// Distance in the plan from the course that leads straight from the start over the route's places to the goal, m.
+/// Returns the horizontal distance from the polyline of start, route and goal, m.
 double off_course_m(const Scenario& scenario, const Eigen::Vector2d& start_NE, const Eigen::Vector2d& p_NE) {
-  std::vector<Eigen::Vector2d> turns{start_NE};
-  for (const GoalConfig& place : scenario.route) turns.emplace_back(place.p_WG().head<2>());
-  turns.emplace_back(scenario.goal->p_WG().head<2>());
-  double least_m = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i + 1 < turns.size(); ++i) {
-    const Eigen::Vector2d leg = turns[i + 1] - turns[i];
-    const double share = std::clamp((p_NE - turns[i]).dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
-    least_m = std::min(least_m, (turns[i] + share * leg - p_NE).norm());
+  std::vector<Eigen::Vector2d> course{start_NE};
+  for (const GoalConfig& waypoint : scenario.route) course.emplace_back(waypoint.p_WG().head<2>());
+  course.emplace_back(scenario.goal->p_WG().head<2>());
+  double distance_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + 1 < course.size(); ++i) {
+    const Eigen::Vector2d leg = course[i + 1] - course[i];
+    const double share = std::clamp((p_NE - course[i]).dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
+    distance_m = std::min(distance_m, (course[i] + share * leg - p_NE).norm());
   }
-  return least_m;
+  return distance_m;
 }
 
-/// Root of the mean square of the second difference of the velocity, m/s^3.
+/// Returns the RMS jerk from second differences of the velocity, m/s^3.
 double rms_jerk_mps3(const Rows& rows) {
   double sum = 0.0;
   for (size_t i = 1; i + 1 < rows.size(); ++i) {
@@ -59,7 +117,7 @@ double rms_jerk_mps3(const Rows& rows) {
   return std::sqrt(sum / static_cast<double>(rows.size() - 2));
 }
 
-/// Path of all actuators together, per second, each in its own unit.
+/// Returns the total travel of all actuators per second, each in its own unit.
 double actuator_effort(const Rows& rows) {
   double path = 0.0;
   for (size_t i = 1; i < rows.size(); ++i) path += (rows[i].controls - rows[i - 1].controls).lpNorm<1>();

@@ -2,21 +2,193 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
+#include <optional>
+
+#include "dynamics/rigid_body.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kFarthestM = 50.0;  // farther solids count as absent; finite, so that sums of signals are
+double evaluate(const Expression& e, const SampledSignals& signals, size_t sample) {
+  const auto part = [&](size_t i) { return evaluate(e.of[i], signals, sample); };
+  switch (e.kind) {
+    case Expression::Kind::number:
+      return e.number;
+    case Expression::Kind::signal:
+      return signals.numbers.at(e.signal)[sample];
+    case Expression::Kind::add:
+      return part(0) + part(1);
+    case Expression::Kind::subtract:
+      return part(0) - part(1);
+    case Expression::Kind::multiply:
+      return part(0) * part(1);
+    case Expression::Kind::divide:
+      return part(0) / part(1);
+    case Expression::Kind::negate:
+      return -part(0);
+    case Expression::Kind::abs:
+      return std::abs(part(0));
+    case Expression::Kind::min:
+      return std::min(part(0), part(1));
+    case Expression::Kind::max:
+      return std::max(part(0), part(1));
+  }
+  return 0.0;
+}
+
+/// An interval in samples, both ends included; without `last` it extends to the end.
+struct SampleWindow {
+  size_t first = 0;
+  std::optional<size_t> last;
+  bool empty() const { return last && *last < first; }
+};
+
+SampleWindow window(const TimeInterval& interval, double dt_s) {
+  constexpr double kRoundOff = 1e-9;
+  SampleWindow window{.first = static_cast<size_t>(std::ceil(interval.from_s / dt_s - kRoundOff)), .last = {}};
+  if (interval.to_s) window.last = static_cast<size_t>(std::floor(*interval.to_s / dt_s + kRoundOff));
+  return window;
+}
+
+/// Evaluates a formula bottom up, all samples of a subformula at once.
+class Evaluator {
+ public:
+  explicit Evaluator(const SampledSignals& signals) : signals_(signals) {}
+  size_t comparisons() const { return comparisons_; }
+
+  Robustness of(const Formula& formula) {
+    switch (formula.kind) {
+      case Formula::Kind::at_least_zero:
+      case Formula::Kind::has_status:
+        return of_samples(formula);
+      case Formula::Kind::negation:
+        return negated(of(formula.of[0]));
+      case Formula::Kind::conjunction:
+        return min(of(formula.of[0]), of(formula.of[1]));
+      case Formula::Kind::disjunction:
+        return max(of(formula.of[0]), of(formula.of[1]));
+      case Formula::Kind::implication:
+        return max(negated(of(formula.of[0])), of(formula.of[1]));
+      case Formula::Kind::always:
+        return window_min(of(formula.of[0]), window(formula.interval, signals_.dt_s));
+      case Formula::Kind::eventually:
+        return window_max(of(formula.of[0]), window(formula.interval, signals_.dt_s));
+      case Formula::Kind::until:
+        return until(of(formula.of[0]), of(formula.of[1]), window(formula.interval, signals_.dt_s));
+    }
+    return {};
+  }
+
+ private:
+  Robustness filled(double value) const {
+    return {std::vector<double>(signals_.samples, value), std::vector<size_t>(signals_.samples, 0), 0};
+  }
+
+  Robustness of_samples(const Formula& formula) const {
+    Robustness r = filled(0.0);
+    for (size_t i = 0; i < signals_.samples; ++i) {
+      if (formula.kind == Formula::Kind::has_status) {
+        r.value[i] = signals_.status.at(i) == formula.status ? kInfinity : -kInfinity;
+      } else {
+        const double margin = evaluate(formula.margin, signals_, i);
+        r.value[i] = std::isnan(margin) ? -kInfinity : margin;
+      }
+      r.decisive[i] = i;
+    }
+    return r;
+  }
+
+  static Robustness negated(Robustness r) {
+    for (double& value : r.value) value = -value;
+    return r;
+  }
+
+  /// Of equal values, the one determined earlier is the smaller.
+  bool is_less(double a, size_t a_at, double b, size_t b_at) {
+    ++comparisons_;
+    return a < b || (a == b && a_at < b_at);
+  }
+
+  Robustness min(Robustness a, const Robustness& b) {
+    for (size_t i = 0; i < a.value.size(); ++i) {
+      if (is_less(a.value[i], a.decisive[i], b.value[i], b.decisive[i])) continue;
+      a.value[i] = b.value[i];
+      a.decisive[i] = b.decisive[i];
+    }
+    return a;
+  }
+  Robustness max(Robustness a, Robustness b) { return negated(min(negated(std::move(a)), negated(std::move(b)))); }
+
+  /// Returns the minimum over the window of each sample. Time runs backwards. From the front, the queue contains the
+  /// newest sample, then each later sample that is smaller than all before it; the last is the minimum.
+  Robustness window_min(const Robustness& r, SampleWindow window) {
+    Robustness result = filled(kInfinity);
+    const size_t samples = r.value.size();
+    if (window.empty()) return result;
+    std::deque<size_t> queue;
+    for (size_t i = samples; i-- > 0;) {
+      result.decisive[i] = samples - 1;
+      if (window.first >= samples - i) continue;
+      const size_t entering = i + window.first;
+      while (!queue.empty() &&
+             is_less(r.value[entering], r.decisive[entering], r.value[queue.front()], r.decisive[queue.front()])) {
+        queue.pop_front();
+      }
+      queue.push_front(entering);
+      while (window.last && queue.back() - i > *window.last) queue.pop_back();
+      result.value[i] = r.value[queue.back()];
+      result.decisive[i] = r.decisive[queue.back()];
+    }
+    return result;
+  }
+  Robustness window_max(Robustness r, SampleWindow window) {
+    return negated(window_min(negated(std::move(r)), window));
+  }
+
+  /// f until[a,b] g = eventually[a,b] g, and always[0,a) f, and f until g a samples later.
+  Robustness until(const Robustness& f, const Robustness& g, SampleWindow window) {
+    const size_t samples = g.value.size();
+    Robustness unbounded = g;  // max(g_i, min(f_i, of the next)), from the end
+    for (size_t i = samples; i-- > 1;) {
+      const size_t now = i - 1;
+      const bool f_less = is_less(f.value[now], f.decisive[now], unbounded.value[i], unbounded.decisive[i]);
+      const double value = f_less ? f.value[now] : unbounded.value[i];
+      if (is_less(value, 0, g.value[now], 0) || value == g.value[now]) continue;
+      unbounded.value[now] = value;
+      unbounded.decisive[now] = f_less ? f.decisive[now] : unbounded.decisive[i];
+    }
+    Robustness later = filled(-kInfinity);
+    for (size_t i = 0; i < samples && window.first < samples - i; ++i) {
+      later.value[i] = unbounded.value[i + window.first];
+      later.decisive[i] = unbounded.decisive[i + window.first];
+    }
+    Robustness result = min(window_max(g, window), later);
+    if (window.first > 0) result = min(std::move(result), window_min(f, {.first = 0, .last = window.first - 1}));
+    return result;
+  }
+
+  const SampledSignals& signals_;
+  size_t comparisons_ = 0;
+};
+
+}  // namespace
+
+Robustness robustness(const Formula& formula, const SampledSignals& signals) {
+  Evaluator evaluator(signals);
+  Robustness result = evaluator.of(formula);
+  result.comparisons = evaluator.comparisons();
+  return result;
+}
+
+namespace {
 
 double degrees(double angle_rad) { return 180.0 / std::numbers::pi * angle_rad; }
 
-double wrapped_deg(double angle_rad) { return degrees(std::remainder(angle_rad, 2.0 * std::numbers::pi)); }
-
-double tilt_rad(const Eigen::Vector3d& rpy) {
-  return std::acos(std::clamp(std::cos(rpy.x()) * std::cos(rpy.y()), -1.0, 1.0));
-}
+double wrapped_deg(double angle_rad) { return degrees(dynamics::wrap_angle(angle_rad)); }
 
 void add_motion(const TrajectoryRow& row, const Scenario& scenario, SampledSignals& signals) {
   const auto add = [&](const char* name, double value) { signals.numbers[name].push_back(value); };
@@ -28,7 +200,7 @@ void add_motion(const TrajectoryRow& row, const Scenario& scenario, SampledSigna
   add("roll", degrees(row.rpy_true.x()));
   add("pitch", degrees(row.rpy_true.y()));
   add("heading", wrapped_deg(row.rpy_true.z()));
-  add("tilt", degrees(tilt_rad(row.rpy_true)));
+  add("tilt", degrees(dynamics::tilt_rad(row.rpy_true)));
   add("wind", row.wind_W.norm());
   const Eigen::Vector2d v_NE = row.v_WB_W_true.head<2>();
   add("tracking_error", row.v_WB_W_cmd ? (*row.v_WB_W_cmd - v_NE).norm() : 0.0);
@@ -36,12 +208,12 @@ void add_motion(const TrajectoryRow& row, const Scenario& scenario, SampledSigna
   add("goal_distance", scenario.goal ? (row.p_WB_true - scenario.goal->p_WG()).head<2>().norm() : 0.0);
 }
 
-/// Distances at the ticks, and the closest one wherever it fell between them.
+/// Returns the distances at the control ticks, including the closest approach between them.
 std::vector<double> clearances(const Flight& flight, double TrajectoryRow::*distance_m, const ClosestApproach& closest,
                                double dt_s) {
   std::vector<double> values;
-  for (const TrajectoryRow& row : flight.trajectory) values.push_back(std::min(row.*distance_m, kFarthestM));
-  if (values.empty() || !(closest.distance_m < kFarthestM)) return values;
+  for (const TrajectoryRow& row : flight.trajectory) values.push_back(std::min(row.*distance_m, kMaxClearanceM));
+  if (values.empty() || !(closest.distance_m < kMaxClearanceM)) return values;
   constexpr double kRoundOff = 1e-9;
   const auto sample = static_cast<size_t>(std::max(0.0, std::floor(closest.t_s / dt_s + kRoundOff)));
   double& value = values[std::min(sample, values.size() - 1)];
@@ -49,7 +221,7 @@ std::vector<double> clearances(const Flight& flight, double TrajectoryRow::*dist
   return values;
 }
 
-/// The status in force at each row: that of the last decision.
+/// Returns the status at each row: that of the last decision.
 std::vector<std::string> status_words(const Flight& flight) {
   std::vector<std::string> words;
   auto next = flight.decisions.begin();

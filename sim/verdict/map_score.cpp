@@ -9,10 +9,10 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kConvergedPercent = 3.0, kNothingPercent = 100.0, kCountsS = 10.0, kCompleteShare = 0.9;
+constexpr double kConvergedPercent = 3.0, kUnmatchedPercent = 100.0, kMinSeenS = 10.0, kCompleteShare = 0.9;
 
-/// Keeps since when something holds; NaN while it does not.
-void keep_since(double& since_s, bool holds, double t_s) {
+/// Updates the time since which a condition holds; NaN while it does not.
+void update_since(double& since_s, bool holds, double t_s) {
   if (!holds) {
     since_s = NAN;
   } else if (std::isnan(since_s)) {
@@ -35,13 +35,13 @@ double MapScore::error_percent(size_t corner, const Eigen::Vector3d& p_W) const 
 }
 
 void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std::vector<bool>& in_sight) {
-  ever_ = ever_ || !map_W.empty();
+  had_points_ = had_points_ || !map_W.empty();
   const std::vector<std::optional<Eigen::Index>> matches = match_points(corners_W_, map_W, tolerance_m_);
   double sum_percent = 0.0, found = 0.0;
   seen_count_ = 0;
   is_true_.assign(map_W.size(), false);
   for (size_t corner = 0; corner < corners_W_.size(); ++corner) {
-    double percent = kNothingPercent;
+    double percent = kUnmatchedPercent;
     is_found_[corner] = matches[corner].has_value();
     if (is_found_[corner]) {
       const auto point = static_cast<size_t>(*matches[corner]);
@@ -49,17 +49,17 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
       percent = error_percent(corner, map_W[point]);
     }
     if (in_sight[corner]) seen_s_[corner] += t_s - last_t_s_;
-    if (seen_s_[corner] < kCountsS) continue;
+    if (seen_s_[corner] < kMinSeenS) continue;
     ++seen_count_;
     sum_percent += percent;
     found += is_found_[corner] ? 1.0 : 0.0;
   }
   last_t_s_ = t_s;
-  error_percent_ = seen_count_ > 0 ? sum_percent / seen_count_ : kNothingPercent;
+  error_percent_ = seen_count_ > 0 ? sum_percent / seen_count_ : kUnmatchedPercent;
   recall_ = seen_count_ > 0 ? found / seen_count_ : 0.0;
   count_false(map_W);
-  keep_since(converged_s_, error_percent_ <= kConvergedPercent, t_s);
-  keep_since(complete_s_, recall_ >= kCompleteShare && precision_ >= kCompleteShare, t_s);
+  update_since(converged_s_, error_percent_ <= kConvergedPercent, t_s);
+  update_since(complete_s_, recall_ >= kCompleteShare && precision_ >= kCompleteShare, t_s);
 }
 
 void MapScore::count_false(std::span<const Eigen::Vector3d> map_W) {
@@ -76,7 +76,7 @@ void MapScore::count_false(std::span<const Eigen::Vector3d> map_W) {
 std::vector<RecordedCorner> MapScore::corners() const {
   std::vector<RecordedCorner> corners;
   for (size_t i = 0; i < corners_W_.size(); ++i) {
-    corners.push_back({corners_W_[i], seen_s_[i] >= kCountsS, is_found_[i]});
+    corners.push_back({corners_W_[i], seen_s_[i] >= kMinSeenS, is_found_[i]});
   }
   return corners;
 }
@@ -87,7 +87,7 @@ void MapScore::complete(MapRecord& map) const {
 }
 
 std::vector<MetricValue> MapScore::metrics() const {
-  if (!ever_) return {};
+  if (!had_points_) return {};
   return {{"corners_seen", static_cast<double>(seen_count_), ""},
           {"corners_found", recall_, ""},
           {"map_precision", precision_, ""},
@@ -97,6 +97,33 @@ std::vector<MetricValue> MapScore::metrics() const {
           {"converged_s", converged_s_, "s"},
           {"false_landmarks", static_cast<double>(false_count_), ""},
           {"false_on_ground", static_cast<double>(false_on_ground_), ""}};
+}
+
+namespace {
+
+bool in_image(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_W) {
+  const auto pixel = camera.project(X_WC.inverse() * p_W);
+  return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() <= camera.width_px - 1 &&
+         pixel->y() <= camera.height_px - 1;
+}
+
+bool is_unobstructed(const CollisionWorld& world, const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_W, double t_s) {
+  constexpr double kOwnSurfaceM = 0.1;  // the ray may meet the surface of the corner slightly before it
+  const Eigen::Vector3d ray_W = p_W - p_WC;
+  const double distance_m = ray_W.norm();
+  if (distance_m <= kOwnSurfaceM) return true;
+  return world.distance_along(p_WC, ray_W / distance_m, distance_m, t_s) >= distance_m - kOwnSurfaceM;
+}
+
+}  // namespace
+
+std::vector<bool> corners_in_sight(std::span<const Eigen::Vector3d> corners_W, const vision::camera::Camera& camera,
+                                   const Eigen::Isometry3d& X_WC, const CollisionWorld* world, double t_s) {
+  std::vector<bool> seen;
+  for (const Eigen::Vector3d& p_W : corners_W) {
+    seen.push_back(in_image(camera, X_WC, p_W) && (!world || is_unobstructed(*world, X_WC.translation(), p_W, t_s)));
+  }
+  return seen;
 }
 
 }  // namespace hedgehop::sim

@@ -15,8 +15,8 @@ Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s) {
   return p.p_WB + (t_s - p.t_s) / (q.t_s - p.t_s) * (q.p_WB - p.p_WB);
 }
 
-/// Fills the table of pairs row by row and returns its last cell. @param cell  of (cost of i-1 j-1, of i-1 j, of i j-1,
-/// the pair's distance); a cell outside the table is +inf, that before the first pair 0.
+/// Fills the table of pairs row by row and returns its last cell. @param cell  function of the costs of (i-1, j-1),
+/// (i-1, j), (i, j-1) and the pair's distance. Cells outside the table are +inf; the one before the first pair is 0.
 template <class CellOf>
 double last_cell(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b, CellOf cell) {
   std::vector<double> above(b.size() + 1, kInfinity), row(b.size() + 1, kInfinity);
@@ -33,11 +33,11 @@ double last_cell(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>
 
 }  // namespace
 
-double largest_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference) {
-  double largest_m = 0.0;
-  for (const TimedPoint& p : flown) largest_m = std::max(largest_m, (p.p_WB - position_at(reference, p.t_s)).norm());
-  for (const TimedPoint& p : reference) largest_m = std::max(largest_m, (p.p_WB - position_at(flown, p.t_s)).norm());
-  return largest_m;
+double max_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference) {
+  double maximum_m = 0.0;
+  for (const TimedPoint& p : flown) maximum_m = std::max(maximum_m, (p.p_WB - position_at(reference, p.t_s)).norm());
+  for (const TimedPoint& p : reference) maximum_m = std::max(maximum_m, (p.p_WB - position_at(flown, p.t_s)).norm());
+  return maximum_m;
 }
 
 double discrete_frechet_m(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b) {

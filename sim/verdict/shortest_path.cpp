@@ -10,16 +10,17 @@
 namespace hedgehop::sim {
 namespace {
 
-class Search {
+class ThetaStarSearch {
  public:
-  Search(const Eigen::AlignedBox2d& bounds, double cell_m, const std::function<bool(const Eigen::Vector2d&)>& is_free)
+  ThetaStarSearch(const Eigen::AlignedBox2d& bounds, double cell_m,
+                  const std::function<bool(const Eigen::Vector2d&)>& is_free)
       : origin_(bounds.min()), cell_m_(cell_m), is_free_(is_free) {
     rows_ = 1 + static_cast<int>(std::ceil(bounds.sizes().x() / cell_m));
     cols_ = 1 + static_cast<int>(std::ceil(bounds.sizes().y() / cell_m));
     const size_t count = static_cast<size_t>(rows_) * static_cast<size_t>(cols_);
     length_.assign(count, kInfinity);
     parent_.assign(count, -1);
-    known_.assign(count, Known::not_yet);
+    known_.assign(count, Occupancy::unknown);
     closed_.assign(count, false);
   }
 
@@ -41,7 +42,7 @@ class Search {
   }
 
  private:
-  enum class Known : char { not_yet, free, taken };
+  enum class Occupancy : char { unknown, free, occupied };
 
   static size_t index(int node) { return static_cast<size_t>(node); }
   Eigen::Vector2d point(int node) const { return origin_ + cell_m_ * Eigen::Vector2d(node / cols_, node % cols_); }
@@ -53,12 +54,12 @@ class Search {
     return row * cols_ + col;
   }
   bool free(int node) {
-    Known& known = known_[index(node)];
-    if (known == Known::not_yet) known = is_free_(point(node)) ? Known::free : Known::taken;
-    return known == Known::free;
+    Occupancy& known = known_[index(node)];
+    if (known == Occupancy::unknown) known = is_free_(point(node)) ? Occupancy::free : Occupancy::occupied;
+    return known == Occupancy::free;
   }
-  /// Whether all grid points along the segment, a point each half cell, are free.
-  bool sees(int a, int b) {
+  /// Whether the grid points nearest to the segment, sampled every half cell, are free.
+  bool is_visible(int a, int b) {
     const Eigen::Vector2d p = point(a), q = point(b);
     const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * (q - p).norm() / cell_m_)));
     for (int i = 1; i < steps; ++i) {
@@ -72,9 +73,9 @@ class Search {
       for (int next_col = std::max(0, col - 1); next_col <= std::min(cols_ - 1, col + 1); ++next_col) {
         const int next = next_row * cols_ + next_col;
         if (closed_[index(next)] || !free(next)) continue;
-        // Directly from the parent where nothing stands between, else through this point.
+        // Directly from the parent if the segment is free, otherwise through this point.
         const int parent = parent_[index(node)];
-        const int via = sees(parent, next) ? parent : node;
+        const int via = is_visible(parent, next) ? parent : node;
         const double length = length_[index(via)] + distance(via, next);
         if (length >= length_[index(next)]) continue;
         length_[index(next)] = length;
@@ -91,7 +92,7 @@ class Search {
   int rows_ = 0, cols_ = 0;
   std::vector<double> length_;
   std::vector<int> parent_;
-  std::vector<Known> known_;
+  std::vector<Occupancy> known_;
   std::vector<bool> closed_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
 };
@@ -101,7 +102,7 @@ class Search {
 std::optional<double> shortest_path_m(const Eigen::Vector2d& start_NE_m, const Eigen::Vector2d& goal_NE_m,
                                       const Eigen::AlignedBox2d& bounds_NE_m, double cell_m,
                                       const std::function<bool(const Eigen::Vector2d& p_NE_m)>& is_free) {
-  return Search(bounds_NE_m, cell_m, is_free).run(start_NE_m, goal_NE_m);
+  return ThetaStarSearch(bounds_NE_m, cell_m, is_free).run(start_NE_m, goal_NE_m);
 }
 
 }  // namespace hedgehop::sim

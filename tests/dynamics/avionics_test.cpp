@@ -31,7 +31,7 @@ TEST(Avionics, EqualSeedsGiveEqualFlightsBitForBit) {
   EXPECT_FALSE(same(fly(loop, 6.0, away).back(), a.back()));
 }
 
-/// Feeds two avionics the same hover and compares their estimates at its end.
+/// Runs two avionics in the same hover and compares their final estimates.
 control::NavigationEstimate after_hover(Avionics& avionics, double duration_s = 3.0) {
   Vehicle vehicle{VehicleConfig(helicopter::HelicopterConfig())};
   vehicle.reset({0.0, 0.0, -10.0}, 0.0, Eigen::Vector3d::Zero());
@@ -49,7 +49,7 @@ bool same(const control::NavigationEstimate& a, const control::NavigationEstimat
 
 TEST(Avionics, ResetEqualsNew) {
   const auto make = [] {
-    return Avionics({}, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
+    return Avionics({}, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return stream_seed(1, n); });
   };
   Avionics used = make(), fresh = make();
   after_hover(used);
@@ -60,18 +60,18 @@ TEST(Avionics, ResetEqualsNew) {
   EXPECT_EQ(a, b);
 }
 
-TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
+TEST(Avionics, EachNoiseSourceHasItsOwnStream) {
   std::vector<std::string> names;
   Avionics avionics({}, helicopter::HelicopterConfig(), 0.002, [&](std::string_view n) {
     names.emplace_back(n);
-    return seed_of(1, n);
+    return stream_seed(1, n);
   });
   EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "survey"));
 
-  // Another seed for one stream reaches the estimate through that sensor alone.
+  // Another seed of one stream changes the estimate through that sensor only.
   const auto estimated = [](AvionicsConfig c, std::string_view other) {
     Avionics a(c, helicopter::HelicopterConfig(), 0.002,
-               [&](std::string_view n) { return seed_of(n == other ? 2 : 1, n); });
+               [&](std::string_view n) { return stream_seed(n == other ? 2 : 1, n); });
     return after_hover(a);
   };
   AvionicsConfig all;
@@ -83,13 +83,13 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   }
   EXPECT_FALSE(same(estimated(blind, "imu"), estimated(blind, "none")));
 
-  // What is not on board asks for none.
+  // Sensors that are not on board have no stream.
   AvionicsConfig with_options;
   with_options.barometer.enabled = with_options.range_finder.ranger.enabled = true;
   names.clear();
   Avionics(with_options, helicopter::HelicopterConfig(), 0.002, [&](std::string_view n) {
     names.emplace_back(n);
-    return seed_of(1, n);
+    return stream_seed(1, n);
   });
   EXPECT_THAT(names, testing::UnorderedElementsAre("imu", "gps", "height_sensor", "magnetometer", "survey", "barometer",
                                                    "range_finder"));
@@ -97,13 +97,13 @@ TEST(Avionics, EachSourceOfNoiseHasAStreamOfItsOwn) {
   EXPECT_TRUE(same(estimated(with_options, "range_finder"), estimated(with_options, "none")));
 }
 
-TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
+TEST(Avionics, MeasuresTheRangeAlongTheBeamFromItsMountingPosition) {
   AvionicsConfig c;
   c.range_finder = {.ranger = {.noise_m = 0.0, .noise_per_range = 0.0, .dropout = 0.0, .latency_s = 0.0},
                     .direction_B = {0.0, 2.0, 0.0},
                     .p_BI_m = {0.5, 0.0, 0.1}};
-  Avionics avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return seed_of(1, n); });
-  // Nose to the east, banked to the right by 30 degrees: the beam over the right wing points south and down.
+  Avionics avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view n) { return stream_seed(1, n); });
+  // Heading east, banked to the right by 30 degrees: a beam to the right points south and down.
   SensedTruth truth;
   truth.body.p_WB = {3.0, 4.0, -10.0};
   truth.body.q_WB = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()) *
@@ -119,7 +119,7 @@ TEST(Avionics, RangesAlongTheBeamFromItsPlaceOnBoard) {
   avionics.reset(truth);
   EXPECT_FALSE(avionics.range_m());
   for (int64_t tick = 0; tick < 100; ++tick) avionics.sense(tick * 2'000'000, truth);
-  EXPECT_EQ(casts, 10) << "one for each reading, 50 a second";
+  EXPECT_EQ(casts, 10) << "one per reading, 50 per second";
   EXPECT_EQ(avionics.range_m(), 7.5);
   avionics.reset(truth);
   EXPECT_FALSE(avionics.range_m());
@@ -136,7 +136,7 @@ TEST(Avionics, FliesAtOtherPhysicsAndSensorRates) {
   EXPECT_NEAR(flight.back().body.p_WB.z(), -11.0, 0.2);
 }
 
-TEST(Avionics, NamesTheRateThatDoesNotFit) {
+TEST(Avionics, NamesTheRateThatDoesNotDivideThePhysicsRate) {
   AvionicsConfig c;
   c.magnetometer.rate_hz = 30.0;
   EXPECT_THAT([&] { Avionics(c, helicopter::HelicopterConfig(), 0.002, [](std::string_view) { return uint64_t{1}; }); },

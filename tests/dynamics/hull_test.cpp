@@ -33,13 +33,13 @@ TEST(Hull, BoomJoinsFuselageAndTailRotor) {
   EXPECT_NEAR(boom.center_B_m.x() + boom.half_extents_m.x(), fuselage.center_B_m.x() - fuselage.half_extents_m.x(),
               1e-12);
   EXPECT_NEAR(boom.center_B_m.x() - boom.half_extents_m.x(), tail.center_B_m.x(), 1e-12);
-  // At its front the boom meets the fuselage's back wall, not the air above it.
+  // The front end of the boom touches the back of the fuselage.
   EXPECT_GT(boom.center_B_m.z() - boom.half_extents_m.z(), fuselage.center_B_m.z() - fuselage.half_extents_m.z());
 }
 
-TEST(Hull, RadiusHoldsEveryCorner) {
+TEST(Hull, RadiusContainsEveryCorner) {
   const std::vector<HullPart> parts = hull(helicopter::HelicopterConfig{});
-  // The tail rotor's far edge is the farthest: 0.91 + 0.13 back, 0.02 aside.
+  // The rear edge of the tail rotor has the maximum distance: 0.91 + 0.13 back, 0.02 to the side.
   EXPECT_NEAR(radius_m(parts), std::hypot(1.04, 0.02), 1e-12);
   EXPECT_EQ(radius_m({}), 0.0);
   EXPECT_NEAR(radius_m({parts[0]}), 0.775, 1e-12);

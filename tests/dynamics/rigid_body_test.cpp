@@ -10,7 +10,6 @@
 
 #include "dynamics/helicopter/helicopter_flight.h"
 #include "dynamics/helicopter/trim.h"
-#include "dynamics/integrator.h"
 #include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics {
@@ -18,7 +17,7 @@ namespace {
 
 MassProperties mass_of(double xx, double yy, double zz) { return make_mass_properties(1.0, {xx, yy, zz}, 0.0); }
 
-/// Steps a body without loads; the quaternion is made unit again as in flight.
+/// Steps a body without loads; the quaternion is normalized as in flight.
 RigidBodyState step_free(const MassProperties& mass, const RigidBodyState& state, double h) {
   const auto rate = [&](double, const RigidBodyVector& x) {
     return derivative(mass, to_rigid_body(x), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
@@ -33,7 +32,7 @@ Eigen::Vector3d momentum_W(const MassProperties& mass, const RigidBodyState& s) 
   return s.q_WB * (mass.I_B * s.w_WB_B);
 }
 
-/// Times at which w[axis] changes sign, linear within a step, and the angular velocities there.
+/// Returns the times at which w[axis] changes sign, linear within a step, and the angular velocities there.
 struct Flips {
   std::vector<double> t_s;
   std::vector<Eigen::Vector3d> w;
@@ -56,7 +55,7 @@ Flips flips(const MassProperties& mass, const Eigen::Vector3d& w0, int axis, dou
 }
 
 // Check RB1.
-TEST(RigidBody, RB1_DzhanibekovFlipsWhenEllipticIntegralsSay) {
+TEST(RigidBody, RB1_DzhanibekovFlipPeriodMatchesEllipticIntegrals) {
   const MassProperties mass = mass_of(0.18, 0.34, 0.28);
   const Flips f = flips(mass, {0.01, 0.0, 5.0}, 2, 1e-3, 20.0);
   ASSERT_EQ(f.t_s.size(), 2u);
@@ -165,7 +164,7 @@ helicopter::BladeAngles wiggle(const helicopter::BladeAngles& trim, double t_s) 
 }
 
 // Check RB5.
-TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
+TEST(Helicopter, RB5_UniformWindOnlyTranslatesTheMotion) {
   const Eigen::Vector3d wind_W{3.0, -4.0, 0.0};
   helicopter::HelicopterFlight still{helicopter::HelicopterConfig{}}, carried{helicopter::HelicopterConfig{}};
   helicopter::HelicopterFlightState start = still.state();
@@ -180,12 +179,12 @@ TEST(Helicopter, RB5_UniformWindOnlyCarriesItAlong) {
     carried.step(command, wind_W, dt);
     worst = std::max(worst, (carried.body().p_WB - still.body().p_WB - wind_W * i * dt).norm());
   }
-  EXPECT_GT(still.body().v_WB_B.norm(), 0.5) << "a flight that goes nowhere proves nothing";
+  EXPECT_GT(still.body().v_WB_B.norm(), 0.5) << "the flight must move through the air";
   expect_recorded_below("distance from W t over 10 s, m", worst, 1e-9);
 }
 
-/// Change of kinetic and potential energy less the work of all loads but gravity, after 10 s of manoeuvre, over the
-/// greatest change of energy on the way.
+/// Returns the change of kinetic and potential energy minus the work of all loads except gravity, after a maneuver of
+/// 10 s, over the maximum change of energy during it.
 double energy_residual(double h) {
   const helicopter::HelicopterModel model = make_model(helicopter::HelicopterConfig{});
   const std::optional<helicopter::Trim> start = trim(model, {8.0, 0.0, 0.0});
@@ -224,7 +223,7 @@ TEST(Helicopter, RB6_EnergyIsTheWorkOfItsLoads) {
 }
 
 // Check RB7.
-TEST(RigidBody, RB7_FallsFreelyAsGalileoSays) {
+TEST(RigidBody, RB7_FreeFallIsUniformlyAccelerated) {
   const MassProperties mass = mass_of(1.0, 1.0, 1.0);
   RigidBodyState s;
   for (int i = 0; i < 500; ++i) s = step_free(mass, s, 0.002);
@@ -232,13 +231,13 @@ TEST(RigidBody, RB7_FallsFreelyAsGalileoSays) {
   expect_recorded("speed after 1 s, m/s", s.v_WB_B.z(), 9.81, 1e-12);
 }
 
-TEST(RigidBody, RefusesAnInertiaNoBodyHas) {
+TEST(RigidBody, RefusesAnInertiaOfNoRigidBody) {
   EXPECT_THROW(make_mass_properties(1.0, {1.0, 1.0, 2.1}, 0.0), std::invalid_argument);
   EXPECT_THROW(make_mass_properties(1.0, {1.0, 1.0, 1.0}, 1.1), std::invalid_argument);
   EXPECT_THROW(make_mass_properties(-1.0, {1.0, 1.0, 1.0}, 0.0), std::invalid_argument);
 }
 
-TEST(RigidBody, EulerAnglesGoThereAndBack) {
+TEST(RigidBody, EulerAnglesRoundTrip) {
   const Eigen::Vector3d rph = to_roll_pitch_heading(from_roll_pitch_heading(0.3, -0.7, 2.5));
   EXPECT_LT((rph - Eigen::Vector3d{0.3, -0.7, 2.5}).norm(), 1e-14);
 }

@@ -32,7 +32,7 @@ constexpr bool kIsVariant = false;
 template <class... T>
 constexpr bool kIsVariant<std::variant<T...>> = true;
 
-/// Holds a map of a vehicle file against the values of a config.
+/// Compares a map of a vehicle file with the values of a config.
 class Comparison {
  public:
   Comparison(const YAML::Node& map, std::string path) : map_(map), path_(std::move(path)) { seen_.insert("type"); }
@@ -128,7 +128,7 @@ helicopter::HelicopterConfig read(const std::string& file) {
   helicopter::HelicopterConfig config;
   Reader reader(root);
   describe(reader, config);
-  Comparison::compare(root, file + ": ", config);  // no key too many
+  Comparison::compare(root, file + ": ", config);  // no additional keys
   return config;
 }
 

@@ -10,8 +10,8 @@
 
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
+#include "sim/fields/order_statistics.h"
 #include "vision/flow/feature_flow.h"
-#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::corridor {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "vision/order_statistics.h"
+#include "sim/fields/order_statistics.h"
 
 namespace hedgehop::vision::corridor {
 namespace {

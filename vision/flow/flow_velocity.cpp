@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/fields/order_statistics.h"
 #include "vision/flow/flow_measures.h"
-#include "vision/order_statistics.h"
 
 namespace hedgehop::vision::flow {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "vision/order_statistics.h"
+#include "sim/fields/order_statistics.h"
 
 namespace hedgehop::vision::landmarks {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "vision/order_statistics.h"
+#include "sim/fields/order_statistics.h"
 
 namespace hedgehop::vision::mapping {
 namespace {

@@ -40,13 +40,13 @@ TEST(Atmosphere, AS4_AgreesWithTheStandardsTableUpToTheTropopause) {
   }
 }
 
-TEST(Atmosphere, AS4_PressureGivesTheAltitudeBackToAMillimetre) {
+TEST(Atmosphere, AS4_PressureAltitudeInvertsTheModelToAMillimeter) {
   for (double altitude_m = -500.0; altitude_m <= 11000.0; altitude_m += 12.5) {
     EXPECT_NEAR(pressure_altitude_m(standard_air(altitude_m).pressure_pa), altitude_m, 1e-3);
   }
 }
 
-TEST(Atmosphere, AS4_AirRestsOnTheAirBelow) {
+TEST(Atmosphere, AS4_PressureIsHydrostatic) {
   // Hydrostatics: dp/dz = -g rho, g falling with the square of the distance from the Earth's center.
   for (const double altitude_m : {0.0, 300.0, 3000.0}) {
     const double slope =

@@ -24,7 +24,7 @@ constexpr double kSpeedMps = 25.0;
 WindConfig turbulent() { return {.turbulence_w20_mps = kW20}; }
 
 // Check DR1.
-TEST(Wind, DR1_ScalesAreThoseOfLowAltitude) {
+TEST(Wind, DR1_ScalesMatchTheLowAltitudeModel) {
   const std::array<double, 4> heights{3.048, 6.096, 15.24, 100.0}, lengths{23.055, 43.766, 94.728, 262.79},
       sigmas{1.5148, 1.4887, 1.4188, 1.0649};
   for (size_t i = 0; i < heights.size(); ++i) {
@@ -107,7 +107,7 @@ TEST(Wind, DR2_TwoHalfStepsAreOneStep) {
   }
 }
 
-/// One-sided spectral density at some frequencies (rad/s), from Hann-windowed segments.
+/// Returns the one-sided spectral density at some frequencies (rad/s), from Hann-windowed segments.
 /// @param component  0 u, 1 v, 2 w.
 std::vector<double> spectrum(int component, const std::vector<double>& w_radps, double dt, int per_segment,
                              int segments) {
@@ -150,7 +150,7 @@ TEST(Wind, DR3_SpectraHaveDrydensShape) {
 }
 
 // Check DR4.
-TEST(Wind, DR4_AutocorrelationCrossesZeroWhereDrydensDoes) {
+TEST(Wind, DR4_AutocorrelationHasTheZeroOfDrydensModel) {
   const DrydenScales s = dryden_scales(kHeightM, kW20);
   const double dt = 0.02, speed = 10.0;
   Wind wind(turbulent(), 14);
@@ -188,7 +188,7 @@ TEST(Wind, DR5_SameSeedSameWindBitForBit) {
 // Check DR6.
 constexpr double kSlopeTruncation = 2e-6;  // of central differences over a thousandth of the length, relative
 
-TEST(Gust, DR6_RisesToHalfAtMidLengthWithTheSlopeOfACosineAndRoundAtBothEnds) {
+TEST(Gust, DR6_RisesAsACosine) {
   const GustConfig gust{.speed_mps = 8.0, .length_m = 25.0, .hold_m = 10.0};
   const double step_m = 0.001 * gust.length_m;
   const auto slope = [&](double way_m) {
@@ -197,12 +197,12 @@ TEST(Gust, DR6_RisesToHalfAtMidLengthWithTheSlopeOfACosineAndRoundAtBothEnds) {
   const double steepest = std::numbers::pi * 8.0 / (2.0 * 25.0);
   expect_recorded("speed at mid length, m/s", gust_speed_mps(gust, 12.5), 4.0, 1e-12);
   expect_recorded_relative("slope at mid length, 1/s", slope(12.5), steepest, kSlopeTruncation);
-  // The difference reaches a step into the rise: pi s / 4 d of the steepest slope.
+  // The difference includes one step of the rise: pi s / 4 d of the maximum slope.
   expect_recorded("slope at the beginning, 1/s", slope(0.0), 0.0, 1e-3 * steepest);
   expect_recorded("slope at the top, 1/s", slope(25.0), 0.0, 1e-3 * steepest);
 }
 
-TEST(Gust, DR6_HoldsAndFallsAsItRose) {
+TEST(Gust, DR6_HoldsAndFallsSymmetrically) {
   const GustConfig gust{.speed_mps = 8.0, .length_m = 25.0, .hold_m = 10.0};
   EXPECT_DOUBLE_EQ(gust_speed_mps(gust, 25.0), 8.0);
   EXPECT_DOUBLE_EQ(gust_speed_mps(gust, 30.0), 8.0);
@@ -214,8 +214,8 @@ TEST(Gust, DR6_HoldsAndFallsAsItRose) {
   EXPECT_EQ(gust_speed_mps(gust, 61.0), 0.0);
 }
 
-TEST(Wind, DR6_AGustIsMetAtItsTimeAndFlownThroughAtTheAirspeed) {
-  // A headwind of 4 m/s over ground at 6 m/s: 10 m of air a second, so mid length 1 s after the start.
+TEST(Wind, DR6_GustStartsAtItsTimeAndPassesAtTheAirspeed) {
+  // A headwind of 4 m/s at a ground speed of 6 m/s: 10 m of air per second, so half the length 1 s after the start.
   Wind wind({.speed_mps = 4.0,
              .gust = {.speed_mps = 6.0, .from_rad = std::numbers::pi / 2.0, .start_s = 2.0, .length_m = 20.0}},
             1);
@@ -231,7 +231,7 @@ TEST(Wind, DR6_AGustIsMetAtItsTimeAndFlownThroughAtTheAirspeed) {
   EXPECT_LT(gust_W(2.0).norm(), 1e-9);
 }
 
-TEST(Wind, AGustDisturbsNoTurbulence) {
+TEST(Wind, GustDoesNotChangeTheTurbulence) {
   WindConfig gusty = turbulent();
   gusty.gust = {.speed_mps = 5.0, .from_rad = std::numbers::pi, .start_s = 0.1, .length_m = 2.0, .hold_m = 1000.0};
   Wind a(turbulent(), 5), b(gusty, 5);
@@ -247,7 +247,8 @@ TEST(Wind, AGustDisturbsNoTurbulence) {
 }
 
 TEST(Wind, ShearFollowsTheLogarithmOfTheHeight) {
-  // At the roughness times e, e^2, e^3 the wind stands as 1 : 2 : 3; at 20 ft it is as set; at the ground it is still.
+  // At the roughness times e, e^2, e^3 the wind is in the ratio 1 : 2 : 3; at 20 ft it is as set; at the ground it is
+  // 0.
   const double z0 = 0.046, e = std::numbers::e;
   Wind wind({.speed_mps = 7.0, .from_rad = std::numbers::pi, .roughness_m = z0}, 1);
   const auto north = [&](double height_m) { return wind.sample(height_m, {0, 0, 0}, 0.002).x(); };
@@ -259,12 +260,12 @@ TEST(Wind, ShearFollowsTheLogarithmOfTheHeight) {
   EXPECT_EQ(north(304.8), north(1000.0));
 }
 
-TEST(Wind, SteadyWindComesFromWhereItSays) {
+TEST(Wind, SteadyWindComesFromItsHeading) {
   Wind wind({.speed_mps = 5.0, .from_rad = std::numbers::pi / 2.0}, 1);  // from the east
   EXPECT_LT((wind.sample(10.0, {1, 2, 3}, 0.002) - Eigen::Vector3d{0.0, -5.0, 0.0}).norm(), 1e-12);
 }
 
-TEST(Wind, ComesFromAnywhereInItsSpreadBySeed) {
+TEST(Wind, SeedDrawsTheHeadingWithinItsSpread) {
   double least = 9.0, most = -9.0;
   for (uint64_t seed = 1; seed <= 500; ++seed) {
     const Eigen::Vector3d air_W = Wind({.speed_mps = 5.0, .from_rad = 0.5, .spread_rad = 0.7}, seed).steady_W(10.0);
@@ -272,13 +273,13 @@ TEST(Wind, ComesFromAnywhereInItsSpreadBySeed) {
     least = std::min(least, std::atan2(-air_W.y(), -air_W.x()));
     most = std::max(most, std::atan2(-air_W.y(), -air_W.x()));
   }
-  constexpr double kGap = 0.02;  // the chance that 500 draws all miss this much of either end is below 1e-3
+  constexpr double kGap = 0.02;  // the probability that 500 draws all miss either end by this is below 1e-3
   EXPECT_NEAR(least, -0.2 + 0.5 * kGap, 0.5 * kGap);
   EXPECT_NEAR(most, 1.2 - 0.5 * kGap, 0.5 * kGap);
 }
 
-TEST(Wind, TurbulenceStandsUponTheSteadyWindAndTurnsWithIt) {
-  // A wind from the south blows north, along W's axes; from the west it blows east, a quarter turn on.
+TEST(Wind, TurbulenceAddsToTheSteadyWindAndRotatesWithIt) {
+  // A wind from the south blows north, along W's axes; from the west it blows east, rotated by 90 degrees.
   Wind north({.speed_mps = 5.0, .from_rad = std::numbers::pi, .turbulence_w20_mps = kW20}, 9);
   Wind east({.speed_mps = 5.0, .from_rad = -std::numbers::pi / 2.0, .turbulence_w20_mps = kW20}, 9);
   for (int i = 0; i < 200; ++i) {
@@ -288,7 +289,7 @@ TEST(Wind, TurbulenceStandsUponTheSteadyWindAndTurnsWithIt) {
   }
 }
 
-TEST(Wind, RefusesWhatIsNotAWind) {
+TEST(Wind, RefusesInvalidConfigs) {
   EXPECT_THROW(Wind({.speed_mps = -1.0}, 1), std::invalid_argument);
   EXPECT_THROW(Wind({.turbulence_w20_mps = std::numeric_limits<double>::infinity()}, 1), std::invalid_argument);
   EXPECT_THROW(Wind({.roughness_m = 6.096}, 1), std::invalid_argument);

@@ -14,34 +14,34 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-/// Small rotation about B's axes from the estimate to the truth, rad.
+/// Returns the small rotation about B's axes from the estimate to the truth, rad.
 Eigen::Vector3d rotation_between(const Eigen::Quaterniond& q_est, const Eigen::Quaterniond& q_true) {
   const Eigen::AngleAxisd error(q_est.conjugate() * q_true);
-  return sensors::wrap_angle(error.angle()) * error.axis();
+  return wrap_angle(error.angle()) * error.axis();
 }
 
 Eigen::Quaterniond about_down(double heading_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
 }
 
-TEST(GroundAlignment, TheAccelerometersBiasTiltsAndTheGyrosIsFound) {
+TEST(GroundAlignment, AccelerometerBiasTiltsTheAttitudeAndGyroBiasIsEstimated) {
   const Eigen::Vector3d gyro_bias(0.01, -0.02, 0.005), bias(0.2, -0.3, 0.1);
   GroundAlignment ground({}, {});
   for (int i = 0; i < 100; ++i) ground.add({gyro_bias, bias + Eigen::Vector3d(0.0, 0.0, -kGravityMps2)});
   ground.add_heading(0.5);
   const Alignment a = ground.result(9.0, 1.0);
   EXPECT_LT((a.gyro_bias_est - gyro_bias).norm(), 1e-12);
-  // The estimate takes the specific force for that of rest: no acceleration remains but that of a wrong strength.
+  // The estimate assumes that the specific force is gravity: only an acceleration of a wrong magnitude remains.
   const Eigen::Vector3d f_W = a.q_WB_est * Eigen::Vector3d(bias.x(), bias.y(), bias.z() - kGravityMps2);
   EXPECT_NEAR(f_W.head<2>().norm(), 0.0, 1e-12);
   EXPECT_NEAR(to_roll_pitch_heading(a.q_WB_est)[2], 0.5, 1e-12);
 }
 
-TEST(GroundAlignment, HeadingsOnEitherSideOfSouthHaveSouthAsTheirMean) {
+TEST(GroundAlignment, HeadingsAroundSouthHaveSouthAsTheirMean) {
   GroundAlignment ground({}, {});
   ground.add({Eigen::Vector3d::Zero(), {0.0, 0.0, -kGravityMps2}});
   for (const double off_rad : {0.02, -0.02, 0.01, -0.01}) {
-    ground.add_heading(sensors::wrap_angle(std::numbers::pi + off_rad));
+    ground.add_heading(wrap_angle(std::numbers::pi + off_rad));
   }
   EXPECT_NEAR(std::abs(to_roll_pitch_heading(ground.result(0.0, 1.0).q_WB_est)[2]), std::numbers::pi, 1e-12);
 }
@@ -55,10 +55,10 @@ TEST(GroundAlignment, WithoutAMagnetometerTheHeadingIsSurveyed) {
   EXPECT_EQ(a.attitude_by_compass.norm(), 0.0);
 }
 
-// Errors of attitude (3), accelerometers' bias (3) and compass offset (1) against their joint covariance, so that the
-// correlations count: given the bias, the tilt is known ten times better than without.
+// Errors of attitude (3), accelerometer bias (3) and compass offset (1) against their joint covariance, which tests the
+// correlations: given the bias, the tilt is ten times more accurate.
 TEST(GroundAlignment, ErrorsAreThoseOfTheJointCovariance) {
-  sensors::ImuConfig imu_config;  // weaker biases than usual: products of tilts stay below the heading's noise
+  sensors::ImuConfig imu_config;  // smaller biases than usual: products of tilts stay below the heading noise
   imu_config.accelerometer_offset_mps2 = 0.05;
   imu_config.accelerometer_bias_walk = 0.002;
   imu_config.misalignment_rad = 0.01 * kDeg;
@@ -67,8 +67,8 @@ TEST(GroundAlignment, ErrorsAreThoseOfTheJointCovariance) {
   constexpr double kDt = 0.002, kHeadingRad = -2.0;
   double joint = 0.0, gyros = 0.0;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
-    sensors::Imu imu(imu_config, kDt, seed_of(seed, "imu"));
-    sensors::Magnetometer magnetometer(magnetometer_config, kDt, seed_of(seed, "magnetometer"));
+    sensors::Imu imu(imu_config, kDt, stream_seed(seed, "imu"));
+    sensors::Magnetometer magnetometer(magnetometer_config, kDt, stream_seed(seed, "magnetometer"));
     GroundAlignment ground(imu_config, magnetometer_config);
     imu.observe(Eigen::Vector3d::Zero(), {0.0, 0.0, -kGravityMps2});
     for (int i = 0; i < kImuReadings; ++i) ground.add(imu.read());
@@ -91,16 +91,16 @@ TEST(GroundAlignment, ErrorsAreThoseOfTheJointCovariance) {
   }
   RecordProperty("joint", std::to_string(joint / (7 * kFlights)));
   RecordProperty("gyros", std::to_string(gyros / (3 * kFlights)));
-  // Chi-square of n degrees of freedom: n, give or take four times sqrt(2 n).
+  // Chi-square of n degrees of freedom: n within four times sqrt(2 n).
   EXPECT_NEAR(joint, 7.0 * kFlights, 4.0 * std::sqrt(2.0 * 7.0 * kFlights));
   EXPECT_NEAR(gyros, 3.0 * kFlights, 4.0 * std::sqrt(2.0 * 3.0 * kFlights));
 }
 
-TEST(GroundAlignment, AFlightBeginsWithTheAttitudeErrorThatItClaims) {
+TEST(GroundAlignment, InitialAttitudeErrorMatchesItsCovariance) {
   constexpr int kFlights = 200;
   double chi_square = 0.0;
   for (int i = 1; i <= kFlights; ++i) {
-    Loop loop;  // a helicopter, which hovers with a bank
+    Loop loop;  // a helicopter, which banks in a hover
     loop.heading_rad = 0.02 * i;
     loop.seed = static_cast<uint64_t>(i);
     const Sample start = fly(loop, 0.01, [](double) { return PositionSetpoint{{0.0, 0.0, -10.0}, 0.0}; }).front();
@@ -110,7 +110,7 @@ TEST(GroundAlignment, AFlightBeginsWithTheAttitudeErrorThatItClaims) {
   EXPECT_NEAR(chi_square, 3.0 * kFlights, 4.0 * std::sqrt(2.0 * 3.0 * kFlights));
 }
 
-TEST(Alignment, ARotationThatTheGyrosFollowCarriesTheErrorAlong) {
+TEST(Alignment, RotationMeasuredByTheGyrosRotatesTheError) {
   Alignment before;
   before.q_WB_est = about_down(0.7);
   before.attitude_covariance.diagonal() << 4e-4, 1e-4, 9e-4;
@@ -118,7 +118,7 @@ TEST(Alignment, ARotationThatTheGyrosFollowCarriesTheErrorAlong) {
   const Eigen::Quaterniond rotation(Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()));
   const Alignment after = before.rotated(rotation);
 
-  // One standard deviation along each old axis, seen again after the rotation.
+  // One standard deviation along each old axis, expressed after the rotation.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double kSmall = 1e-6;

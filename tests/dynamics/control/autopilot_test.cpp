@@ -45,7 +45,7 @@ TEST(Autopilot, FollowsVelocityStepsInAllDirections) {
   }
 }
 
-TEST(Autopilot, HeadingChangesNothing) {
+TEST(Autopilot, ResponseIsIndependentOfHeading) {
   for (const double heading_deg : {22.5, 135.0, -170.0}) {
     SCOPED_TRACE(heading_deg);
     Loop loop = perfect();
@@ -56,7 +56,7 @@ TEST(Autopilot, HeadingChangesNothing) {
   }
 }
 
-TEST(Autopilot, StepsStayCrispInWind) {
+TEST(Autopilot, StepResponseIsUnchangedByWind) {
   Loop loop = perfect();
   loop.wind_W = [](double) { return Eigen::Vector3d(-5.0, 0.0, 0.0); };
   for (const Eigen::Vector2d& v : {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(-2.0, 0.0), Eigen::Vector2d(0.0, 2.0)}) {
@@ -67,7 +67,7 @@ TEST(Autopilot, StepsStayCrispInWind) {
   }
 }
 
-TEST(Autopilot, FliesVehiclesItTakesForOthers) {
+TEST(Autopilot, FliesVehiclesThatDifferFromItsModel) {
   const auto changed = [](const auto& change) {
     helicopter::HelicopterConfig c;
     change(c);
@@ -113,7 +113,7 @@ TEST(Autopilot, DesignsItselfForOtherHelicopters) {
   }
 }
 
-TEST(Autopilot, KeepsToClimbAndTurnRateLimits) {
+TEST(Autopilot, KeepsClimbAndYawRateLimits) {
   const AutopilotConfig limits;
   const std::vector<Sample> flight = fly(perfect(), 14.0, [](double t_s) {
     return VelocitySetpoint{{0.0, 0.0}, t_s < 1.0 ? 10.0 : 14.0, t_s < 1.0 ? 0.0 : 170.0 * kDeg};
@@ -130,7 +130,7 @@ TEST(Autopilot, KeepsToClimbAndTurnRateLimits) {
   EXPECT_NEAR(flight.back().rpy()[2], 170.0 * kDeg, 1.0 * kDeg);
 }
 
-TEST(Autopilot, SpeedSetpointsAreCutToTheLimit) {
+TEST(Autopilot, ClampsSpeedSetpoints) {
   const std::vector<Sample> flight = fly(perfect(), 8.0, [](double) {
     return VelocitySetpoint{{6.0, 8.0}, 10.0, 0.0};
   });
@@ -148,7 +148,7 @@ TEST(Autopilot, HoldsAttitudeAndHeight) {
   EXPECT_NEAR(flight.back().body.p_WB.z(), -10.0, 0.2);
 }
 
-TEST(Autopilot, FliesToAPointAndStays) {
+TEST(Autopilot, FliesToAPointAndHoldsIt) {
   const std::vector<Sample> flight = fly(perfect(), 25.0, [](double) {
     return PositionSetpoint{{20.0, -15.0, -12.0}, 1.0};
   });
@@ -161,13 +161,13 @@ TEST(Autopilot, FliesToAPointAndStays) {
   EXPECT_LT((flight.back().body.p_WB - Eigen::Vector3d(20.0, -15.0, -12.0)).norm(), 0.1);
 }
 
-TEST(Autopilot, HoverStopsStaysAndTurns) {
+TEST(Autopilot, HoverStopsHoldsPositionAndTurns) {
   const std::vector<Sample> flight = fly(perfect(), 20.0, [](double t_s) {
     return t_s < 4.0 ? Setpoint(VelocitySetpoint{{2.0, 0.0}, 10.0, 0.0}) : Setpoint(HoverSetpoint{0.2});
   });
   const Eigen::Vector3d stopped = flight[800].body.p_WB;
   for (size_t i = 800; i < flight.size(); ++i) EXPECT_LT((flight[i].body.p_WB - stopped).norm(), 0.4);
-  EXPECT_NEAR(sensors::wrap_angle(flight[1900].rpy()[2] - flight[900].rpy()[2]), 2.0, 0.03);
+  EXPECT_NEAR(wrap_angle(flight[1900].rpy()[2] - flight[900].rpy()[2]), 2.0, 0.03);
 }
 
 TEST(Autopilot, HoldsTheHoverInTurbulence) {
@@ -187,9 +187,9 @@ TEST(Autopilot, HoldsTheHoverInTurbulence) {
   }
 }
 
-TEST(Autopilot, WindsUpWithNothing) {
-  // For three seconds a gust carries the aircraft away faster than the tilt limit lets it resist; when it ends, nothing
-  // of it may be left but the velocity itself.
+TEST(Autopilot, IntegralsDoNotWindUpAtLimits) {
+  // For three seconds, a gust accelerates the aircraft more than the tilt limit can counteract. After it, only the
+  // velocity error may remain.
   Loop loop = perfect();
   loop.avionics.autopilot.tilt_limit_rad = 6.0 * kDeg;
   loop.wind_W = [](double t_s) { return Eigen::Vector3d(t_s > 2.0 && t_s < 5.0 ? -14.0 : 0.0, 0.0, 0.0); };
@@ -221,7 +221,7 @@ TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
         ASSERT_NEAR(s.body.p_WB.z(), -10.0, 0.6) << s.t_s;
       }
       ASSERT_LT(s.v_WB_W().head<2>().norm(), 2.6) << s.t_s;
-      // In the last half second of a side it flies as commanded.
+      // In the last half second of a side, the velocity is as commanded.
       if (std::fmod(s.t_s, 2.5) > 2.0) {
         EXPECT_LT((s.v_WB_W().head<2>() - v(s.t_s)).norm(), 0.4) << s.t_s;
       }
@@ -229,8 +229,8 @@ TEST(Autopilot, FliesSquaresForAMinuteOnItsOwnSensors) {
   }
 }
 
-TEST(HoverModel, IsTheVehicleNearItsHover) {
-  // A small step of each actuator, flown by the vehicle and by the model.
+TEST(HoverModel, MatchesTheVehicleNearItsHover) {
+  // Response of the vehicle and of the model to a small step of each actuator.
   const helicopter::HelicopterConfig config;
   const HoverModel model = make_hover_model(config);
   const LinearSystem step = sampled(model.motion, 0.002);
@@ -253,7 +253,7 @@ TEST(HoverModel, IsTheVehicleNearItsHover) {
   }
 }
 
-TEST(Autopilot, RefusesWhatCannotBe) {
+TEST(Autopilot, RefusesInvalidConfigs) {
   AutopilotConfig c;
   c.tilt_limit_rad = 0.0;
   EXPECT_THAT([&] { Autopilot(c, helicopter::HelicopterConfig()); },

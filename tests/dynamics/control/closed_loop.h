@@ -12,18 +12,18 @@
 #include "dynamics/vehicle.h"
 #include "sim/libm/random.h"
 
-/// A vehicle flown by its avionics, or by its autopilot alone on perfect navigation, for tests.
+/// Closed loop of a vehicle with its avionics, or with its autopilot and true navigation, for tests.
 namespace hedgehop::dynamics {
 
 struct Loop {
   AvionicsConfig avionics;
   VehicleConfig vehicle;
-  std::optional<VehicleConfig> designed_for;  ///< what the autopilot takes the vehicle for
+  std::optional<VehicleConfig> designed_for;  ///< vehicle that the autopilot is designed for
   std::function<Eigen::Vector3d(double t_s)> wind_W = [](double) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
   std::optional<air::WindConfig> weather;  ///< instead of wind_W
   std::function<double(const Eigen::Vector3d& p_WB)> surface_m = [](const Eigen::Vector3d&) { return 0.0; };
-  bool perfect = false;     ///< the autopilot knows the true state
-  double flow_sigma = 0.1;  ///< of the velocity that stands for the down camera's, 50 Hz, m/s; 0 for none
+  bool perfect = false;     ///< whether the autopilot gets the true state
+  double flow_sigma = 0.1;  ///< of the simulated velocity of the downward camera, 50 Hz, m/s; 0 for none
   double heading_rad = 0.0;
   uint64_t seed = 1;
   double physics_rate_hz = 500.0;
@@ -38,10 +38,10 @@ struct Sample {
   Eigen::Vector3d v_WB_W() const { return body.q_WB * body.v_WB_B; }
   Eigen::Vector3d v_WB_W_est() const { return estimate.q_WB_est * estimate.v_WB_B_est; }
   Eigen::Vector3d rpy() const { return to_roll_pitch_heading(body.q_WB); }
-  /// Small rotation about B's axes from the estimate to the truth.
+  /// Returns the small rotation about B's axes from the estimate to the truth.
   Eigen::Vector3d attitude_error() const {
     const Eigen::AngleAxisd error(estimate.q_WB_est.conjugate() * body.q_WB);
-    return sensors::wrap_angle(error.angle()) * error.axis();
+    return wrap_angle(error.angle()) * error.axis();
   }
 };
 
@@ -101,17 +101,17 @@ inline std::vector<Sample> fly(const Loop& loop, double duration_s,
   return samples;
 }
 
-/// When what the start was off by no longer shows.
+/// Time after which the initial errors have decayed.
 inline constexpr double kSettledS = 2.0;
 
-/// A square of velocities, a new side every 3 s: the aircraft tilts and accelerates all the time.
+/// A square of velocities, a new side every 3 s, so that the aircraft accelerates all the time.
 inline control::Setpoint square(double t_s) {
   constexpr double kSigns[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
   const double(&s)[2] = kSigns[static_cast<int>(t_s / 3.0) % 4];
   return control::VelocitySetpoint{{1.5 * s[0], 1.5 * s[1]}, 10.0, 0.0};
 }
 
-/// Flights that differ by the seed alone: 1, 2, ...
+/// Flights that differ only in the seed: 1, 2, ...
 inline std::vector<std::vector<Sample>> flights(Loop loop, int count, double duration_s,
                                                 const std::function<control::Setpoint(double)>& setpoint) {
   std::vector<std::vector<Sample>> all;

@@ -68,7 +68,7 @@ TEST(Lqr, NoOtherGainCostsLess) {
   }
 }
 
-TEST(Lqr, RefusesAnUnstableSystemThatNoInputReaches) {
+TEST(Lqr, RefusesAnUncontrollableUnstableSystem) {
   EXPECT_THROW(lqr_gain({scalar(1.1), scalar(0.0)}, scalar(1.0), scalar(1.0)), std::invalid_argument);
 }
 

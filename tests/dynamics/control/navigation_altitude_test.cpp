@@ -1,4 +1,4 @@
-// The filter's altitude: height sensor, barometer, and surfaces that change below.
+// Altitude of the navigation filter: height sensor, barometer, and changes of the surface below.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-TEST(Navigation, ARoofBelowIsNoClimb) {
+TEST(Navigation, RoofBelowIsNotInterpretedAsClimb) {
   Loop loop;
   loop.surface_m = [](const Eigen::Vector3d& p) { return p.x() > 6.0 && p.x() < 18.0 ? 6.0 : 0.0; };
   const auto across = [](double) { return VelocitySetpoint{{2.0, 0.0}, 10.0, 0.0}; };
@@ -27,11 +27,11 @@ TEST(Navigation, ARoofBelowIsNoClimb) {
       const double height_m = -s.body.p_WB.z() - loop.surface_m(s.body.p_WB);
       if (std::abs(s.estimate.height_above_ground_m - height_m) > 0.4) ++wrong_height;
     }
-    EXPECT_LE(wrong_height, 12);  // samples of 10 ms: the moments of two edges and of drop-outs at them
+    EXPECT_LE(wrong_height, 12);  // samples of 10 ms: at two edges, and drop-outs there
   }
 }
 
-/// Altitude errors to their sigmas (root of the mean square), and the greatest of them, m.
+/// RMS ratio of altitude errors to their sigmas, and the maximum error, m.
 struct AltitudeErrors {
   double rms_ratio = 0.0, max_m = 0.0, within_3_sigma = 0.0;
 };
@@ -52,7 +52,7 @@ AltitudeErrors altitude_errors(const std::vector<std::vector<Sample>>& flights) 
   return e;
 }
 
-/// Flies 10 m up over a height sensor that reaches 5 m, without reception.
+/// Flies at 10 m with a height sensor of 5 m range, without reception.
 AltitudeErrors beyond_the_height_sensor(bool barometer) {
   Loop loop;
   loop.avionics.height_sensor.ranger.max_m = 5.0;
@@ -66,17 +66,17 @@ TEST(Navigation, TheBarometerHoldsAltitudeBeyondTheHeightSensor) {
   RecordProperty("max_m", std::to_string(with.max_m));
   RecordProperty("max_without_m", std::to_string(without.max_m));
   RecordProperty("rms_ratio", std::to_string(with.rms_ratio));
-  // In 40 s the wandering error moves by sigma sqrt(2 t / tau), 0.37 m, and the surveyed start errs by 0.1 m;
-  // twelve flights stay within three of that.
+  // In 40 s, the wandering error changes by sigma sqrt(2 t / tau), 0.37 m, and the surveyed start has an error of 0.1
+  // m. Twelve flights stay within three sigmas.
   EXPECT_LT(with.max_m, 3.0 * std::hypot(0.37, 0.1));
   EXPECT_GT(without.max_m, 2.0 * with.max_m);
   EXPECT_GT(with.within_3_sigma, 0.98);
-  EXPECT_GT(with.rms_ratio, 0.5);  // it does not claim to know less than it does
+  EXPECT_GT(with.rms_ratio, 0.5);  // the sigmas are not too large
   EXPECT_LT(with.rms_ratio, 1.4);
 }
 
-TEST(Navigation, TheHeightSensorTeachesTheBarometersError) {
-  // A barometer far off, read beside the height sensor, drags the altitude nowhere.
+TEST(Navigation, HeightSensorCalibratesTheBarometer) {
+  // A barometer with a large error does not change the altitude from the height sensor.
   Loop loop;
   loop.avionics.barometer.enabled = true;
   loop.avionics.barometer.wander_pa = 120.0;  // 10 m
@@ -85,8 +85,8 @@ TEST(Navigation, TheHeightSensorTeachesTheBarometersError) {
   EXPECT_GT(e.within_3_sigma, 0.98);
 }
 
-TEST(Navigation, OwnsUpToTheHeightSensorsOffset) {
-  // However often it reads, an offset of 0.3 m stays in the altitude; claims must not shrink below it.
+TEST(Navigation, SigmaOfAltitudeIncludesTheHeightSensorsOffset) {
+  // An offset of 0.3 m remains in the altitude; repeated readings must not reduce the sigma below it.
   Loop loop;
   loop.avionics.height_sensor.ranger.offset_m = 0.3;
   const AltitudeErrors e = altitude_errors(flights(loop, 12, 10.0, square));
@@ -96,7 +96,7 @@ TEST(Navigation, OwnsUpToTheHeightSensorsOffset) {
   EXPECT_LT(e.rms_ratio, 1.4);
 }
 
-TEST(Navigation, HeightAndAltitudeAgreeOverTheGround) {
+TEST(Navigation, HeightEqualsAltitudeAboveTheGround) {
   for (const Sample& s : fly({}, 10.0, square)) {
     EXPECT_NEAR(s.estimate.height_above_ground_m, -s.estimate.p_WB_est.z(), 1e-12);
   }

@@ -15,14 +15,14 @@ namespace hedgehop::dynamics::control {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
-// An alignment on the ground tilts by the accelerometers' bias, 0.02 g or 1.2 deg per axis, and turns by the compass
-// offset, 1 deg; a filter that learns nothing in flight would stay at 2 deg.
+// The alignment on the ground has a tilt error by the accelerometer bias, 0.02 g or 1.2 deg per axis, and a heading
+// error by the compass offset, 1 deg. A filter that does not estimate these in flight would keep an error of 2 deg.
 constexpr double kAlignedRad = 1.5 * kDeg;
 
 struct Errors {
   double attitude_rms_rad = 0.0, velocity_rms_mps = 0.0, position_rms_m = 0.0, altitude_max_m = 0.0;
   double within_3_sigma = 0.0;     ///< share of attitude, velocity and position components
-  double mean_square_ratio = 0.0;  ///< of errors to their sigmas, 1 when the claims are right
+  double mean_square_ratio = 0.0;  ///< of errors to their sigmas, 1 for correct sigmas
 };
 
 Errors errors(const std::vector<std::vector<Sample>>& flights) {
@@ -59,7 +59,7 @@ Errors errors(const std::vector<std::vector<Sample>>& flights) {
   return e;
 }
 
-TEST(Navigation, IsAccurateAndHonestInAcceleratedFlight) {
+TEST(Navigation, ErrorsAreSmallAndMatchTheirSigmasInAcceleratedFlight) {
   const Errors e = errors(flights({}, 12, 40.0, square));
   RecordProperty("attitude_rms_deg", std::to_string(e.attitude_rms_rad / kDeg));
   RecordProperty("velocity_rms_mps", std::to_string(e.velocity_rms_mps));
@@ -68,11 +68,11 @@ TEST(Navigation, IsAccurateAndHonestInAcceleratedFlight) {
   EXPECT_LT(e.attitude_rms_rad, kAlignedRad);
   EXPECT_LT(e.velocity_rms_mps, 0.05);
   EXPECT_GT(e.within_3_sigma, 0.98);
-  EXPECT_GT(e.mean_square_ratio, 0.6);  // it does not claim to know less than it does
+  EXPECT_GT(e.mean_square_ratio, 0.6);  // the sigmas are not too large
   EXPECT_LT(e.mean_square_ratio, 1.6);
 }
 
-TEST(Navigation, IsHonestInTurbulence) {
+TEST(Navigation, ErrorsMatchTheirSigmasInTurbulence) {
   Loop loop;
   loop.weather = air::WindConfig{.speed_mps = 5.0, .from_rad = 1.0, .turbulence_w20_mps = 7.7};
   const Errors e = errors(flights(loop, 6, 40.0, square));
@@ -81,7 +81,7 @@ TEST(Navigation, IsHonestInTurbulence) {
   EXPECT_GT(e.within_3_sigma, 0.98);
 }
 
-TEST(Navigation, LevelsByFlowAloneWhereThereIsNoReception) {
+TEST(Navigation, KeepsLevelByFlowAloneWithoutReception) {
   Loop loop;
   loop.avionics.gps.enabled = false;
   const Errors e = errors(flights(loop, 4, 60.0, square));
@@ -90,7 +90,7 @@ TEST(Navigation, LevelsByFlowAloneWhereThereIsNoReception) {
   EXPECT_LT(e.position_rms_m, 1.5);  // dead reckoning
 }
 
-TEST(Navigation, SatelliteVelocitiesCarryItWhereThereIsNoTexture) {
+TEST(Navigation, SatelliteVelocitiesSufficeWithoutTexture) {
   Loop loop;
   loop.flow_sigma = 0.0;
   const Errors e = errors(flights(loop, 4, 60.0, square));
@@ -107,7 +107,7 @@ TEST(Navigation, AttitudeSurvivesTwoMinutesOnInertialSensorsAlone) {
   }
 }
 
-/// By readings without errors, and a heading of 0.
+/// Alignment by readings without errors, with heading 0.
 Alignment level_alignment() {
   GroundAlignment ground({}, {});
   constexpr int kReadings = 3000;  // 30 s
@@ -116,7 +116,7 @@ Alignment level_alignment() {
   return ground.result(0.0, 1.0);
 }
 
-TEST(Navigation, AnOutlierOfTheFlowMovesLittle) {
+TEST(Navigation, FlowOutliersHaveLittleEffect) {
   const Navigation::Sensors sensors;
   Navigation navigation({}, sensors);
   navigation.reset(level_alignment(), Eigen::Vector3d::Zero());
@@ -127,7 +127,7 @@ TEST(Navigation, AnOutlierOfTheFlowMovesLittle) {
   }
   navigation.correct_velocity({5.0, 0.0}, 0.1);
   EXPECT_LT(navigation.estimate().v_WB_B_est.norm(), 0.03);
-  // Many that agree are accepted in the end.
+  // Many agreeing readings are accepted.
   for (int i = 0; i < 500; ++i) {
     navigation.predict(hover);
     navigation.correct_velocity({1.0, 0.0}, 0.1);
@@ -142,7 +142,7 @@ TEST(Navigation, AltitudeHoldsThroughLostReadings) {
   EXPECT_LT(e.altitude_max_m, 0.4);
 }
 
-/// Squares of errors over the sigmas claimed for them at one instant, summed over axes and flights: chi-square numbers.
+/// Squares of errors over their sigmas at one instant, summed over axes and flights: chi-square distributed.
 struct ChiSquares {
   double attitude = 0.0, velocity = 0.0, horizontal = 0.0, altitude = 0.0;
 
@@ -158,11 +158,11 @@ struct ChiSquares {
   }
 };
 
-// Bounds: chi-square, 0.05 and 99.95 per cent, of 36, 24 and 12 degrees of freedom.
-TEST(Navigation, StaysWithinItsClaimsForFiveMinutesOnTheBarometer) {
+// Bounds: chi-square, 0.05 and 99.95 %, of 36, 24 and 12 degrees of freedom.
+TEST(Navigation, ErrorsMatchTheirSigmasForFiveMinutesOnTheBarometer) {
   Loop loop;
   loop.vehicle = multicopter::MulticopterConfig();
-  loop.avionics.height_sensor.ranger.max_m = 5.0;  // it flies 10 m up
+  loop.avionics.height_sensor.ranger.max_m = 5.0;  // the flight is at 10 m
   loop.avionics.barometer.enabled = true;
   constexpr int kFlights = 12;
   std::array<ChiSquares, 3> at_100_200_300_s;
@@ -185,25 +185,25 @@ TEST(Navigation, StaysWithinItsClaimsForFiveMinutesOnTheBarometer) {
   }
 }
 
-TEST(Navigation, NoCorrectionTurnsTheAttitudeOfTheGyros) {
+TEST(Navigation, CorrectionsDoNotRotateTheGyroAttitude) {
   Navigation filter({}, {});
   const Eigen::Quaterniond q_WB(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()));
   filter.reset(level_alignment().rotated(q_WB), Eigen::Vector3d::Zero());
   const Eigen::Vector3d w(0.2, -0.1, 0.4);
-  constexpr int kReadings = 101;  // 1 s at 100 Hz; the first one starts the clock
+  constexpr int kReadings = 101;  // 1 s at 100 Hz; the first one only starts the integration
   for (int i = 0; i < kReadings; ++i) {
     filter.predict({w, Eigen::Vector3d(0.0, 0.0, -9.80665)});
     filter.correct_velocity({0.5, -0.5}, 0.05);
     filter.correct_heading(1.0);
   }
   const NavigationEstimate& estimate = filter.estimate();
-  const Eigen::Vector3d bias = w - estimate.w_WB_B_est;  // a wrong estimate, made in flight: part of the rotation
+  const Eigen::Vector3d bias = w - estimate.w_WB_B_est;  // the error of the estimate in flight is part of the rotation
   const Eigen::Quaterniond rotated = q_WB * Eigen::AngleAxisd(w.norm(), w.normalized());
   EXPECT_LT(estimate.q_WB_gyro.angularDistance(rotated), bias.norm() + 1e-9);
   EXPECT_GT(estimate.q_WB_est.angularDistance(rotated), 5.0 * estimate.q_WB_gyro.angularDistance(rotated));
 }
 
-TEST(Navigation, GyroBiasIsLearnt) {
+TEST(Navigation, EstimatesTheGyroBias) {
   Navigation filter({}, {});
   Alignment rough = level_alignment();
   rough.gyro_bias_sigma_radps = 0.01;

@@ -7,18 +7,18 @@
 
 #include "tests/dynamics/control/closed_loop.h"
 
-/// What a vehicle and its autopilot make of a step of the commanded velocity, for tests.
+/// Response of a vehicle and its autopilot to a step of the commanded velocity, for tests.
 namespace hedgehop::dynamics {
 
-/// How a velocity step went, in the direction of the step.
+/// Properties of a velocity step, in the direction of the step.
 struct StepResponse {
   double rise_s = 0.0;       ///< from 10 to 90 %
-  double settled_s = 0.0;    ///< after the step, from when on it stays within 10 %
-  double overshoot = 0.0;    ///< share of the step
-  double across_mps = 0.0;   ///< greatest velocity across the step
-  double altitude_m = 0.0;   ///< greatest departure
-  double heading_rad = 0.0;  ///< greatest departure
-  double tilt_rad = 0.0;     ///< greatest departure from the hover's roll and pitch
+  double settled_s = 0.0;    ///< time after the step from which it stays within 10 %
+  double overshoot = 0.0;    ///< as a share of the step
+  double across_mps = 0.0;   ///< maximum velocity normal to the step
+  double altitude_m = 0.0;   ///< maximum error
+  double heading_rad = 0.0;  ///< maximum error
+  double tilt_rad = 0.0;     ///< maximum difference from the hover's roll and pitch
 };
 
 inline StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_W, double duration_s = 6.0) {
@@ -42,7 +42,7 @@ inline StepResponse step_response(const Loop& loop, const Eigen::Vector2d& v_WB_
     r.across_mps = std::max(r.across_mps, std::abs(v.dot(across)));
     r.altitude_m = std::max(r.altitude_m, std::abs(s.body.p_WB.z() + 10.0));
     const Eigen::Vector3d rpy = s.rpy();
-    r.heading_rad = std::max(r.heading_rad, std::abs(sensors::wrap_angle(rpy[2] - loop.heading_rad)));
+    r.heading_rad = std::max(r.heading_rad, std::abs(wrap_angle(rpy[2] - loop.heading_rad)));
     r.tilt_rad = std::max(r.tilt_rad, std::hypot(rpy[0] - hover.roll_rad, rpy[1] - hover.pitch_rad));
   }
   r.rise_s = t90 > 0.0 ? t90 - t10 : INFINITY;

@@ -8,14 +8,14 @@
 
 #include "dynamics/helicopter/helicopter.h"
 #include "dynamics/helicopter/trim.h"
-#include "dynamics/integrator.h"
+#include "dynamics/rigid_body.h"
 #include "tests/dynamics/helicopter/helion.h"
 #include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// HeLion's rotor, bar explicit; gains are per unit of stick.
+/// HeLion's rotor with an explicit bar; gains are per unit of stick.
 MainRotorConfig helion(double hub_stiffness_nmprad) {
   MainRotorConfig c = helion_main_rotor();
   c.hub_stiffness_nmprad = hub_stiffness_nmprad;
@@ -23,7 +23,7 @@ MainRotorConfig helion(double hub_stiffness_nmprad) {
 }
 constexpr double kHelionDensity = 1.292;
 
-/// The same with the bar lumped into the rotor: lag and gains are sums.
+/// The same with the bar lumped into the rotor: sums of lags and gains.
 MainRotorConfig lumped_helion() {
   MainRotorConfig c = helion(0.0);
   c.flybar =
@@ -68,14 +68,14 @@ TEST(Flapping, TC3_XCellOfTheAutopilotProject) {
   c.chord_m = 0.0603;
   c.lift_slope_prad = 6.0;
   c.blade_inertia_kgm2 = 0.1148;
-  c.hinge_offset_m = 0.0;  // the value is that without hinge offset
+  c.hinge_offset_m = 0.0;  // the published value is without hinge offset
   const FlappingModel m = make_main_rotor(c, 1.225).flapping;
   expect_recorded_relative("gamma", m.lock_number, 0.8540, 1e-3);
   expect_recorded_relative("tau_f, s", m.blade_lag_s, 0.1193, 1e-3);
 }
 
 // Check TC4.
-TEST(Flapping, TC4_BarLagsBehindATiltingShaft) {
+TEST(Flapping, TC4_BarLagsBehindARotatingShaft) {
   const double q = 0.1;
   for (const bool lumped : {false, true}) {
     const std::string bar = lumped ? "lumped bar: " : "explicit bar: ";
@@ -121,13 +121,13 @@ TEST(Flapping, SteadyCyclicStopsTheDisc) {
 TEST(Flapping, DefaultExplicitBarHasLagAndGainOfTheDefaultLumpedOne) {
   MainRotorConfig bar;
   bar.flybar = ExplicitBarConfig{};
-  bar.hub_stiffness_nmprad = 0.0;  // without the cross coupling, which the lumped bar leaves out
+  bar.hub_stiffness_nmprad = 0.0;  // no cross coupling, which the lumped bar neglects
   const FlappingModel m = make_main_rotor(bar, 1.225).flapping;
   EXPECT_NEAR(settle(m, {.pitch_radps = 1.0}).back_rad, -0.11976, 1e-3);
   EXPECT_NEAR(settle(m, {.lateral_rad = 1.0}).right_rad, 4.2, 1e-3);
 }
 
-TEST(Flapping, AHelicopterWithAnExplicitBarTrimsToo) {
+TEST(Flapping, HelicopterWithAnExplicitBarHasATrim) {
   HelicopterConfig config;
   config.main_rotor.flybar = ExplicitBarConfig{};
   const HelicopterModel model = make_model(config);

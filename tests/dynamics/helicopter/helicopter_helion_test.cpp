@@ -21,7 +21,7 @@ Trim trimmed(double north_mps) {
 }
 
 // Check HT1.
-TEST(Helion, HT1_HoversAsPublished) {
+TEST(Helion, HT1_HoverMatchesPublishedValues) {
   const Trim t = trimmed(0.0);
   constexpr double kPrinted = 0.03;  // of the trim in [HeLionCode]
   expect_recorded_relative("phi, rad", t.roll_rad, 0.0389, kPrinted);
@@ -70,7 +70,7 @@ TEST(Helion, HT2_LevelFlight) {
 }
 
 // Check HT4.
-TEST(Helion, HT4_HoversRightSideDownAndNosesDownWithSpeed) {
+TEST(Helion, HT4_HoversRightSideDownAndPitchesDownWithSpeed) {
   expect_recorded("phi in hover, deg", trimmed(0.0).roll_rad / kDeg, 2.23, 0.02);
   double pitch = 1e9, inflow = 1e9;
   for (double V = 0.0; V <= 14.0; V += 1.0) {
@@ -82,7 +82,7 @@ TEST(Helion, HT4_HoversRightSideDownAndNosesDownWithSpeed) {
   }
 }
 
-/// The eigenvalue of A nearest to where one is expected must be there.
+/// Expects an eigenvalue of A at a position.
 void expect_mode(const Eigen::MatrixXd& A, std::complex<double> expected) {
   const Eigen::VectorXcd modes = A.eigenvalues();
   const std::complex<double> found = *std::min_element(
@@ -114,7 +114,7 @@ TEST(Helion, LM2_ModesOfTheHover) {
   }
 }
 
-/// Roll rate, disc and bar alone: dp/dt = L_b b, the rest from the equations of flapping by differences.
+/// System of roll rate, disc and bar: dp/dt = L_b b, the rest from the flapping equations by differences.
 Eigen::Matrix3d roll_subsystem(const FlappingModel& model, double L_b) {
   const auto rate = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     const Eigen::Vector4d flap = derivative(model, FlapState{0.0, x[1], 0.0, x[2]}, FlapInput{.roll_radps = x[0]});
@@ -138,11 +138,11 @@ TEST(Helion, LM2_StabilizerBarSlowsTheRollMode) {
 }
 
 // Check LM6.
-TEST(Helion, LM6_RollRatePerStickAndHeaveLieInThePublishedBands) {
+TEST(Helion, LM6_RollRatePerStickAndHeaveAreInThePublishedBands) {
   using L = LinearModel;
   const HelionModel model = make_helion();
   const LinearModel m = linearize(model, trimmed(0.0));
-  // Roll rate and disc at rest under a steady stick.
+  // Steady roll rate and disc under a constant stick.
   Eigen::Matrix2d A;
   A << m.A(L::kP, L::kP), m.A(L::kP, L::kDiscRight), m.A(L::kDiscRight, L::kP), m.A(L::kDiscRight, L::kDiscRight);
   const Eigen::Vector2d B{m.B(L::kP, L::kLateral), m.B(L::kDiscRight, L::kLateral)};

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dynamics/helicopter/trim.h"
-#include "dynamics/integrator.h"
+#include "dynamics/rigid_body.h"
 #include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics::helicopter {
@@ -28,7 +28,7 @@ const Hover& hover() {
   return h;
 }
 
-/// The eigenvalue nearest to where one is expected; the lumped bar has none.
+/// Returns the eigenvalue nearest to an expected one; the lumped bar has none.
 std::complex<double> mode_near(std::complex<double> where) {
   const Eigen::VectorXcd modes = hover().linear.A.topLeftCorner<L::kBarBack, L::kBarBack>().eigenvalues();
   return *std::min_element(modes.begin(), modes.end(),
@@ -68,7 +68,7 @@ TEST(HelicopterLinear, LM1_DerivativesOfTheHover) {
   expect_recorded_relative("Z per collective, m/s2/rad", m.B(L::kW, L::kCollective), -136.7, 0.02);
 }
 
-/// Flies on from the hover with a step in the blade angles, no servos, at 1 ms.
+/// Simulates from the hover with a step of the blade angles, without servos, at 1 ms.
 std::vector<HelicopterState> step_response(const BladeAngles& change, double end_s) {
   const BladeAngles& b = hover().trim.blades;
   const BladeAngles blades{b.collective_rad + change.collective_rad, b.lateral_rad + change.lateral_rad,
@@ -113,7 +113,7 @@ TEST(HelicopterLinear, LM4_HeaveAfterACollectiveStep) {
 // Check LM7.
 TEST(HelicopterLinear, LM7_SignsAreThoseOfAHelicopter) {
   const LinearModel& m = hover().linear;
-  // Speed tilts the body directly and by way of the disc, once that has settled.
+  // Speed tilts the body directly, and through the settled disc.
   const double L_v =
       m.A(L::kP, L::kV) - m.A(L::kP, L::kDiscRight) * m.A(L::kDiscRight, L::kV) / m.A(L::kDiscRight, L::kDiscRight);
   const double M_u =

@@ -10,7 +10,7 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-/// The message with which a default helicopter is refused after a change.
+/// Returns the error message for a default helicopter after a change.
 template <class Change>
 std::string refusal(const Change& change) {
   HelicopterConfig config;
@@ -25,12 +25,12 @@ std::string refusal(const Change& change) {
 using C = HelicopterConfig;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(HelicopterRefusals, NameTheValueThatCannotBe) {
+TEST(HelicopterRefusals, NameTheInvalidValue) {
   using testing::HasSubstr;
   EXPECT_EQ(refusal([](C&) {}), "flies");
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = -8.2; }), HasSubstr("mass.mass: must be > 0 kg, got -8.2"));
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = kNan; }), HasSubstr("mass.mass: must be finite, got nan"));
-  EXPECT_THAT(refusal([](C& c) { c.mass.inertia_kgm2.x() = 1.0; }), HasSubstr("no body has this inertia"));
+  EXPECT_THAT(refusal([](C& c) { c.mass.inertia_kgm2.x() = 1.0; }), HasSubstr("inertia is not that of a rigid body"));
   EXPECT_THAT(refusal([](C& c) { c.air_density_kgpm3 = 0.0; }), HasSubstr("air_density: must be > 0 kg/m3, got 0"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.speed_radps = -167.0; }),
               HasSubstr("main_rotor.speed: must be > 0 rad/s, got -167"));
@@ -42,7 +42,7 @@ TEST(HelicopterRefusals, NameTheValueThatCannotBe) {
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.hinge_offset_m = 0.5; }), HasSubstr("hinge_offset"));
 }
 
-TEST(HelicopterRefusals, NameWhyAServoCannotWork) {
+TEST(HelicopterRefusals, NameTheFaultOfAServo) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal([](C& c) { c.servos.cyclic.damping = 0.0; }),
               HasSubstr("servos.cyclic.damping: must be > 0, got 0"));
@@ -53,7 +53,7 @@ TEST(HelicopterRefusals, NameWhyAServoCannotWork) {
   EXPECT_THAT(refusal([](C& c) { c.servos.cyclic.lowest_rad = 0.2; }), HasSubstr("lowest angle must be below"));
 }
 
-TEST(HelicopterRefusals, NameWhyAHoverIsImpossible) {
+TEST(HelicopterRefusals, NameTheReasonWithoutAHover) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = 80.0; }), HasSubstr("weighs 784.8"));
   EXPECT_THAT(refusal([](C& c) { c.servos.tail.highest_rad = 0.1; }), HasSubstr("tail_rad must be 0.19"));

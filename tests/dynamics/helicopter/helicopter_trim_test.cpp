@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"descent_1", {0, 0, 1}, 5.167, 10.860, kAny, kAny, 4.690, 80.11, 1012.2, kAny}),
     [](const auto& row) { return row.param.name; });
 
-TEST(HelicopterTrim, HT3_HoverExtras) {
+TEST(HelicopterTrim, HT3_HoverInflowAndPower) {
   const Trim t = trimmed({0, 0, 0});
   expect_half_percent(t.state.flap.right_rad, 0.007590, "b, rad");
   expect_half_percent(t.loads.main_rotor.power_w / 167.0, 6.289, "Q, N m");
@@ -141,7 +141,7 @@ TEST(HelicopterTrim, HT4_HeadwindHelpsTheHover) {
   expect_recorded("share of power it saves", 1.0 - headwind / still, 0.08, 0.005);
 }
 
-TEST(HelicopterTrim, HoldsStillInWindFromAnySideAndHeading) {
+TEST(HelicopterTrim, HoversInWindFromAnyDirection) {
   for (double from = 0.0; from < 6.2; from += 0.7) {
     for (double heading = -3.0; heading < 3.1; heading += 1.5) {
       Vehicle vehicle{VehicleConfig{}};
@@ -151,7 +151,7 @@ TEST(HelicopterTrim, HoldsStillInWindFromAnySideAndHeading) {
       const Controls command = vehicle.actuators();
       for (int i = 0; i < 500; ++i) vehicle.step(command, wind_W, 0.002);
       EXPECT_LT((vehicle.body().p_WB - Eigen::Vector3d{10.0, -20.0, -30.0}).norm(), 1e-8);
-      // Specific force is what holds it up against gravity.
+      // The specific force balances gravity.
       EXPECT_LT((vehicle.body().q_WB * vehicle.specific_force_B() + Eigen::Vector3d{0, 0, 9.81}).norm(), 1e-8);
     }
   }
@@ -170,7 +170,7 @@ TEST(Vehicle, SameCommandsGiveTheSameFlightBitForBit) {
   EXPECT_EQ(to_vector(a.body()), to_vector(b.body()));
 }
 
-TEST(Vehicle, StaysFiniteUnderWildCommandsAndWind) {
+TEST(Vehicle, StateIsFiniteForExtremeCommandsAndWind) {
   Vehicle vehicle{VehicleConfig{}};
   for (int i = 0; i < 5000; ++i) {
     const double s = i % 400 < 200 ? 1.0 : -1.0;
@@ -179,15 +179,15 @@ TEST(Vehicle, StaysFiniteUnderWildCommandsAndWind) {
   }
 }
 
-TEST(Vehicle, SaysWhenItDescendsIntoItsOwnWake) {
+TEST(Vehicle, ReportsADescentIntoItsOwnWake) {
   Vehicle vehicle{VehicleConfig{}};
   EXPECT_TRUE(vehicle.within_validity());
   const Controls hover = vehicle.actuators();
-  vehicle.step(hover, {0.0, 0.0, -4.0}, 0.002);  // air rising through the rotor at the speed of its inflow
+  vehicle.step(hover, {0.0, 0.0, -4.0}, 0.002);  // air that rises through the rotor at the speed of its inflow
   EXPECT_FALSE(vehicle.within_validity());
 }
 
-TEST(Vehicle, RefusesWhatCannotFly) {
+TEST(Vehicle, RefusesVehiclesThatCannotHover) {
   const auto refused = [](auto change) {
     HelicopterConfig config;
     change(config);

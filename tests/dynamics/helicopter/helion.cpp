@@ -4,14 +4,12 @@
 #include <cmath>
 #include <variant>
 
-#include "dynamics/helicopter/trim_solver.h"
-
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
 constexpr double kMassKg = 9.75;
 
-/// Lift at small angles, beyond them drag across.
+/// Lift at small angles, cross-flow drag at larger ones.
 double surface_force_n(double half_density, double area_m2, double lift_slope_prad, double along, double across) {
   constexpr double kStall = 0.3;
   const bool flies = std::abs(across) <= kStall * std::abs(along);
@@ -67,7 +65,7 @@ HelionModel make_helion() {
   m.tail_rotor =
       make_tail_rotor(helion_tail_rotor(), m.main_rotor.speed_radps, m.main_rotor.flapping.clockwise, m.density_kgpm3);
 
-  // The bar lumped into the rotor: lags and gains add up. Cross terms as published, times the blades' lag.
+  // Bar lumped into the rotor: sums of lags and gains. Cross terms as published, times the blades' lag.
   FlappingModel& f = m.main_rotor.flapping;
   f.longitudinal_gain += f.mixing * f.bar_longitudinal_gain;
   f.lateral_gain += f.mixing * f.bar_lateral_gain;
@@ -112,7 +110,7 @@ HelicopterLoads helicopter_loads(const HelionModel& m, const HelicopterState& st
   const double Z_hf = surface_force_n(half_density, m.stabilizer_area_m2, slope, v_air_B.x(), w_hf);
   const double Y_vf = surface_force_n(half_density, m.fin_area_m2, slope, v_air_B.x(), v_vf);
 
-  // The engine also pays for climb and drag.
+  // The shaft power includes climb and drag.
   const double T = loads.main_rotor.inflow.thrust_n;
   const double mu = std::hypot(v_air_B.x(), v_air_B.y()) / m.main_rotor.disc.tip_speed_mps;
   loads.main_rotor.power_w =
@@ -129,8 +127,8 @@ HelicopterLoads helicopter_loads(const HelionModel& m, const HelicopterState& st
 }
 
 std::optional<Trim> trim(const HelionModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
-  return solver::find_trim(model, v_air_W, heading_rad);
+  return trim(airframe(model), v_air_W, heading_rad);
 }
-LinearModel linearize(const HelionModel& model, const Trim& trim) { return solver::linear_model(model, trim); }
+LinearModel linearize(const HelionModel& model, const Trim& trim) { return linearize(airframe(model), trim); }
 
 }  // namespace hedgehop::dynamics::helicopter

@@ -21,7 +21,7 @@ const RotorDisc kXCell = make_model(HelicopterConfig{}).main_rotor.disc;
 const double kHoverInflowMps = std::sqrt(kWeightN / (2.0 * kXCell.density_kgpm3 * kXCell.area_m2));
 const double kSolidityTimesSlope = 0.047644 * 5.5;
 
-/// The collective that gives a thrust, by bisection.
+/// Returns the collective for a thrust, by bisection.
 double collective_for(const RotorDisc& disc, double thrust_n, double upflow, double inplane) {
   double low = -1.0, high = 1.5;
   for (int i = 0; i < 100; ++i) {
@@ -31,7 +31,7 @@ double collective_for(const RotorDisc& disc, double thrust_n, double upflow, dou
   return 0.5 * (low + high);
 }
 
-/// v_i over hover inflow at the weight as thrust.
+/// Returns v_i over hover inflow for a thrust equal to the weight.
 double inflow_ratio(double upflow_over_vh, double inplane_over_vh) {
   RotorDisc disc = kXCell;
   disc.descent_limit = 0.6;
@@ -40,7 +40,7 @@ double inflow_ratio(double upflow_over_vh, double inplane_over_vh) {
 }
 
 // Check MT1.
-TEST(InducedVelocity, MT1_XCellHoversAsMomentumTheorySays) {
+TEST(InducedVelocity, MT1_XCellHoverMatchesMomentumTheory) {
   const RotorDisc& disc = kXCell;
   expect_recorded_relative("disc area, m2", disc.area_m2, 1.886919, kPerMille);
   expect_recorded_relative("tip speed, m/s", disc.tip_speed_mps, 129.425, kPerMille);
@@ -72,7 +72,7 @@ TEST(InducedVelocity, MT3_EdgewiseFlowFollowsGlauert) {
   expect_recorded_relative("v_i/v_h, edgewise at 5 v_h", inflow_ratio(0.0, 5.0), 0.19984, kPerMille);
 }
 
-/// dT/dw and dT/dtheta over the mass, in hover, by differences.
+/// Returns dT/dw and dT/dtheta over the mass, in hover, by differences.
 struct Heave {
   double Z_w, Z_col;
 };
@@ -124,7 +124,7 @@ double hover_inflow_mps(const RotorDisc& disc, double weight_n) {
 }
 
 // Check MT6.
-TEST(InducedVelocity, MT6_FullScaleHelicoptersHoverAsPublished) {
+TEST(InducedVelocity, MT6_FullScaleHoversMatchPublishedValues) {
   constexpr double kHalfPercent = 0.005;
   const RotorDisc disc = ah_1s(22.0);
   const double weight_n = 9000.0 * kPoundN;
@@ -144,12 +144,12 @@ TEST(InducedVelocity, MT6_FullScaleHelicoptersHoverAsPublished) {
   expect_recorded_relative("AH-1S flapping rate, 1/s", 1.0 / flapping.blade_lag_s, 11.534, kHalfPercent);
   expect_recorded_relative("AH-1S flapping lag, s", flapping.blade_lag_s, 0.0867, kHalfPercent);
 
-  // An A109's weight and radius; its hover inflow depends on nothing else.
+  // Weight and radius of an A109; the hover inflow depends on these only.
   expect_recorded_relative("A109 v_h, ft/s", hover_inflow_mps(ah_1s(18.0), 5401.0 * kPoundN) / kFootM, 33.41,
                            kHalfPercent);
 }
 
-/// Plain bisection on v_i of the same two equations, without limits.
+/// Solves the same two equations by bisection on v_i, without limits.
 double bisected_inflow(const RotorDisc& disc, double theta, double w_r, double V) {
   const auto excess = [&](double v_i) {
     const double blades = disc.lift_nspm * (w_r + 2.0 / 3.0 * disc.tip_speed_mps * theta - v_i);
@@ -175,7 +175,7 @@ TEST(InducedVelocity, MT7_SolverAgreesWithBisection) {
   };
   for (double V = 0.0; V <= 20.0; V += 0.5) compare(0.0, V);
   for (double climb = 0.0; climb <= 4.0; climb += 0.25) compare(-climb, 0.0);
-  // In descent the range of momentum theory ends at half the hover inflow, so the thrust must be near the weight.
+  // In descent, momentum theory is valid up to half the hover inflow, so the thrust must be near the weight.
   for (double descent = 0.0; descent <= 1.5; descent += 0.25) {
     const double theta = collective_for(kXCell, kWeightN, descent, 0.0);
     worst = std::max(worst, std::abs(solve_inflow(kXCell, theta, descent, 0.0).induced_mps -
@@ -199,7 +199,7 @@ TEST(InducedVelocity, MT7_FiniteForAnyAirspeedUpTo40) {
   }
 }
 
-TEST(InducedVelocity, BothTheoriesGiveTheThrustWhereverItIsValid) {
+TEST(InducedVelocity, ThrustSatisfiesBothTheoriesWithinTheirRange) {
   std::mt19937_64 generator(8);
   std::uniform_real_distribution<double> along(-8.0, 8.0), across(0.0, 30.0), collective(-0.2, 0.25);
   int valid = 0;
@@ -219,7 +219,7 @@ TEST(InducedVelocity, BothTheoriesGiveTheThrustWhereverItIsValid) {
   EXPECT_GT(valid, 10000);
 }
 
-TEST(InducedVelocity, SaysWhenADescentLeavesMomentumTheory) {
+TEST(InducedVelocity, ReportsADescentOutsideMomentumTheory) {
   const double theta = collective_for(kXCell, kWeightN, 0.0, 0.0);
   EXPECT_TRUE(solve_inflow(kXCell, theta, 0.4 * kHoverInflowMps, 0.0).within_momentum_theory);
   EXPECT_FALSE(solve_inflow(kXCell, theta, 1.0 * kHoverInflowMps, 0.0).within_momentum_theory);
@@ -227,7 +227,7 @@ TEST(InducedVelocity, SaysWhenADescentLeavesMomentumTheory) {
 }
 
 TEST(InducedVelocity, ThrustHasNoJumps) {
-  // Across the borders of descent rate and advance ratio, and through zero thrust.
+  // Across the limits of descent rate and advance ratio, and through zero thrust.
   double before = solve_inflow(kXCell, 0.096, 0.0, 0.0).thrust_n;
   for (int i = 1; i <= 40000; ++i) {
     const double s = i / 40000.0;

@@ -33,8 +33,8 @@ TEST(RotorSpeed, LM5_PowerLossInHoverSlowsTheRotorAtOnce) {
                            0.01);
 }
 
-TEST(RotorSpeed, PowerLossTakesTheEnginesTorqueOffTheBody) {
-  // What is left is the tail rotor's thrust, less what its drive takes from the spinning rotor.
+TEST(RotorSpeed, PowerLossRemovesTheEngineTorqueFromTheBody) {
+  // The remaining torque is that of the tail rotor's thrust, minus the power that its drive takes from the rotor.
   HelicopterFlight flight(governed());
   HelicopterFlightState cut = flight.state();
   const HelicopterLoads hover = helicopter_loads(flight.model(), cut.airframe, flight.actuators(), kStill);
@@ -80,7 +80,7 @@ TEST(RotorSpeed, SpeedDroopsWhenTheEngineIsAtItsLimit) {
     state.integral_throttle += rate[1] * 1e-3;
   }
   EXPECT_EQ(throttle(engine, kSetRadps, state), 1.0);
-  EXPECT_NEAR(state.speed_radps, kSetRadps * 2000.0 / 2200.0, 0.01);  // where a load of constant torque takes 2 kW
+  EXPECT_NEAR(state.speed_radps, kSetRadps * 2000.0 / 2200.0, 0.01);  // at which a load of constant torque takes 2 kW
   EXPECT_LT(state.integral_throttle, 1.2) << "the integral must not wind up";
 }
 
@@ -108,13 +108,13 @@ TEST(RotorSpeed, AutopilotClimbsAndTheGovernorRecoversTheSpeed) {
   EXPECT_NEAR(flight.body().p_WB.z(), -13.0, 0.1);
 }
 
-TEST(RotorSpeed, SinksWithASlowRotorAfterPowerLoss) {
+TEST(RotorSpeed, VehicleSinksWithASlowRotorAfterPowerLoss) {
   HelicopterFlight flight(governed());
   HelicopterFlightState state = flight.state();
   const BladeAngles hover = flight.actuators();
   for (int i = 0; i < 5000; ++i) {
     state = flight.state();
-    state.rotor.integral_throttle = -10.0;  // no governor opens it again
+    state.rotor.integral_throttle = -10.0;  // the governor does not open it again
     flight.set_state(state, kStill);
     flight.step(hover, kStill, 0.002);
     ASSERT_TRUE(to_vector(flight.body()).allFinite()) << i;

@@ -1,4 +1,4 @@
-#include "dynamics/helicopter/servo.h"
+#include "dynamics/helicopter/blade_servos.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "dynamics/integrator.h"
+#include "dynamics/rigid_body.h"
 #include "tests/dynamics/recorded_check.h"
 
 namespace hedgehop::dynamics::helicopter {
@@ -38,7 +38,7 @@ TEST(Servo, AS1_StepOvershootsAsASecondOrderLag) {
   expect_recorded_relative("time of the peak, s", at, 0.0957, 0.01);
 }
 
-/// Gain and phase at a frequency, from the last whole period of a long sine.
+/// Returns gain and phase at a frequency, from the last whole period of a long sine.
 std::complex<double> response(double w_radps) {
   const double amplitude = 0.01;
   const int per_period = 2000;
@@ -83,7 +83,7 @@ TEST(Servo, StaysWithinStopsAndRateLimit) {
   EXPECT_DOUBLE_EQ(farthest, servo.highest_rad);
 }
 
-TEST(Servo, ReachesItsTargetAfterALimitedMove) {
+TEST(Servo, ReachesItsTargetAtTheRateLimit) {
   ServoConfig servo;
   servo.rate_limit_radps = 0.5;
   ServoState s;

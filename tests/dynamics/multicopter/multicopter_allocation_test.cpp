@@ -7,7 +7,7 @@
 namespace hedgehop::dynamics::multicopter {
 namespace {
 
-TEST(Multicopter, AllocationGivesWhatIsWithinReach) {
+TEST(Multicopter, AllocationReproducesFeasibleCommands) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> share(-0.3, 0.3);
   for (const MulticopterConfig& config : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
@@ -21,7 +21,7 @@ TEST(Multicopter, AllocationGivesWhatIsWithinReach) {
   }
 }
 
-TEST(Multicopter, OutOfReachItGivesUpYawFirstAndKeepsTilting) {
+TEST(Multicopter, InfeasibleCommandsLoseYawFirstAndKeepRollAndPitch) {
   const MulticopterModel model = make_model(firefly());
   const Controls most = authority(model);
   const double hover_n = 1.53 * kGravityMps2;
@@ -30,14 +30,14 @@ TEST(Multicopter, OutOfReachItGivesUpYawFirstAndKeepsTilting) {
   EXPECT_NEAR(given[kHeave], hover_n, 1e-9);
   EXPECT_GT(given[kYaw], 0.0);
   EXPECT_LT(given[kYaw], most[kYaw]);
-  // Thrust gives way to tilting torques, at both ends.
+  // Roll and pitch torque have priority over thrust, at both limits.
   for (const double asked_n : {0.0, 10.0 * hover_n}) {
     const Controls at_end = wrench(model, allocate(model, {asked_n, 0.8 * most[kRoll], 0.0, 0.0}));
     EXPECT_NEAR(at_end[kRoll], 0.8 * most[kRoll], 1e-9);
   }
 }
 
-TEST(Multicopter, AllocationStaysWithinTheRotorsForAnyWish) {
+TEST(Multicopter, AllocationStaysWithinTheRotorLimitsForAnyCommand) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> wild(0.0, 30.0);
   const MulticopterModel model = make_model(s900());

@@ -13,7 +13,7 @@
 #include "tests/dynamics/multicopter/published_multicopters.h"
 #include "tests/dynamics/recorded_check.h"
 
-// Values marked MC.. are worked out from the published parameter sets by closed forms.
+// Values marked MC.. follow from the published parameter sets by closed forms.
 namespace hedgehop::dynamics::multicopter {
 namespace {
 
@@ -70,7 +70,7 @@ Eigen::Vector3d angular_acceleration(const MulticopterConfig& config, const std:
 }
 
 TEST(Multicopter, MC3_AngularAccelerationOfUnequalSpeeds) {
-  // Front and back turn clockwise: as they speed up the body turns the other way.
+  // Front and back rotors turn clockwise: if they accelerate, the body rotates the other way.
   expect_recorded_relative("Hummingbird A yaw, rad/s2", angular_acceleration(hummingbird_a(), {10, -10, 10, -10}).z(),
                            -0.4133, 1e-3);
   expect_recorded_relative("Hummingbird A roll, rad/s2", angular_acceleration(hummingbird_a(), {0, -10, 0, 10}).x(),
@@ -80,7 +80,7 @@ TEST(Multicopter, MC3_AngularAccelerationOfUnequalSpeeds) {
 }
 
 TEST(Multicopter, MC4_LevelSpeedAtATiltByRotorDragAlone) {
-  // m g tan(tilt) = n lambda omega v, omega^2 = m g cos(tilt) / (n k): the flight that is steady at that tilt.
+  // m g tan(tilt) = n lambda omega v, omega^2 = m g cos(tilt) / (n k): steady flight at that tilt.
   const auto tilt_deg = [](const MulticopterConfig& c, double v_mps) {
     return -trim(make_model(c), {v_mps, 0.0, 0.0})->pitch_rad / kDeg;
   };
@@ -89,7 +89,7 @@ TEST(Multicopter, MC4_LevelSpeedAtATiltByRotorDragAlone) {
     for (int i = 0; i < 50; ++i) (tilt_deg(c, 0.5 * (low + high)) < wanted_deg ? low : high) = 0.5 * (low + high);
     return low;
   };
-  // The rolling moment and the arm of the drag only shift thrust between the rotors: speeds differ in second order.
+  // The rolling moment and the arm of the drag redistribute thrust between rotors: a second-order effect on the speed.
   expect_recorded_relative("Hummingbird A at 5 deg, m/s", speed_at(hummingbird_a(), 5.0), 4.211, 5e-3);
   expect_recorded_relative("Hummingbird A at 10 deg, m/s", speed_at(hummingbird_a(), 10.0), 8.537, 5e-3);
   expect_recorded_relative("Hummingbird A at 20 deg, m/s", speed_at(hummingbird_a(), 20.0), 18.04, 5e-3);
@@ -108,7 +108,7 @@ TEST(Multicopter, MC5_LevelSpeedsOfHummingbirdBWithAllItsDrag) {
   }
 }
 
-TEST(Multicopter, MC5_FlatFallEndsAtTerminalSpeed) {
+TEST(Multicopter, MC5_LevelFallEndsAtTerminalSpeed) {
   MulticopterFlight flight(hummingbird_b());
   MulticopterFlightState state = flight.state();
   state.speeds_radps.setZero();
@@ -132,20 +132,20 @@ TEST(Multicopter, MC5_HoverDamping) {
 TEST(Multicopter, MC6_MotorsFollowAFirstOrderLag) {
   MulticopterFlight flight{MulticopterConfig{}};
   const double from = flight.state().speeds_radps[0];
-  const PerRotor asked = PerRotor::Constant(4, from + 100.0);
-  for (int i = 0; i < 5; ++i) flight.step(asked, Eigen::Vector3d::Zero(), 0.002);
+  const PerRotor commanded = PerRotor::Constant(4, from + 100.0);
+  for (int i = 0; i < 5; ++i) flight.step(commanded, Eigen::Vector3d::Zero(), 0.002);
   expect_recorded("per cent of a step after 10 ms", flight.state().speeds_radps[0] - from, 55.07, 0.06);
-  // 10 to 90 per cent takes ln(9) time constants, however the steps fall.
+  // 10 to 90 % takes ln(9) time constants.
   const auto reached_s = [&](double share) {
     MulticopterFlight again{MulticopterConfig{}};
     double t_s = 0.0;
-    for (; again.state().speeds_radps[0] < from + 100.0 * share; t_s += 1e-5) again.step(asked, {0, 0, 0}, 1e-5);
+    for (; again.state().speeds_radps[0] < from + 100.0 * share; t_s += 1e-5) again.step(commanded, {0, 0, 0}, 1e-5);
     return t_s;
   };
   expect_recorded("rise from 10 to 90 %, s", reached_s(0.9) - reached_s(0.1), 0.02747, 3e-5);
 }
 
-TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
+TEST(Multicopter, MC7_WithoutBodyDragAFallAccelerates) {
   MulticopterFlight flight{MulticopterConfig{}};
   MulticopterFlightState state = flight.state();
   state.speeds_radps.setZero();
@@ -154,8 +154,8 @@ TEST(Multicopter, MC7_WithoutBodyDragAFallKeepsGatheringSpeed) {
   expect_recorded("speed after 10 s of fall, m/s", flight.body().v_WB_B.z(), 98.1, 1e-6);
 }
 
-TEST(Multicopter, SpinningUpTurnsTheBodyByTheRotorsMomentum) {
-  // In vacuo: drag torque off, the angular momentum of body and rotors stays.
+TEST(Multicopter, RotorAccelerationRotatesTheBodyByTheirMomentum) {
+  // Without drag torque, the angular momentum of body and rotors is constant.
   MulticopterConfig config;
   config.rotor.torque_m = 1e-4;
   config.rotor.drag_ns2pm = config.rotor.rolling_nms2pm = 0.0;
@@ -163,11 +163,11 @@ TEST(Multicopter, SpinningUpTurnsTheBodyByTheRotorsMomentum) {
   MulticopterFlightState state = flight.state();
   state.body = {};
   flight.set_state(state, Eigen::Vector3d::Zero());
-  PerRotor asked = state.speeds_radps;
-  asked[0] += 50.0, asked[2] += 50.0;  // clockwise both
+  PerRotor commanded = state.speeds_radps;
+  commanded[0] += 50.0, commanded[2] += 50.0;  // both clockwise
   double torque_impulse = 0.0;
   for (int i = 0; i < 100; ++i) {
-    flight.step(asked, Eigen::Vector3d::Zero(), 0.001);
+    flight.step(commanded, Eigen::Vector3d::Zero(), 0.001);
     torque_impulse += 0.001 * wrench(flight.model(), flight.state().speeds_radps)[kYaw];
   }
   const double rotors = 7.67e-6 * 2.0 * (flight.state().speeds_radps[0] - state.speeds_radps[0]);
@@ -188,10 +188,10 @@ TEST(Multicopter, StaysInATrimmedHoverInWind) {
   }
 }
 
-TEST(Multicopter, HoverModelIsTheVehicleNearItsHover) {
+TEST(Multicopter, HoverModelMatchesTheVehicleNearItsHover) {
   for (const MulticopterConfig& plain : {hummingbird_a(), hummingbird_b(), firefly(), s900()}) {
     MulticopterConfig config = plain;
-    config.rotor.time_constant_down_s = config.rotor.time_constant_up_s;  // one lag, as a linear model has it
+    config.rotor.time_constant_down_s = config.rotor.time_constant_up_s;  // one lag, as in the linear model
     const control::HoverModel model = control::make_hover_model(config);
     const control::LinearSystem step = control::sampled(model.motion, 0.002);
     for (int input = 0; input < kControlAxes; ++input) {
@@ -224,15 +224,15 @@ TEST(Multicopter, FliesWithAnyNumberOfArms) {
   }
 }
 
-TEST(Multicopter, RefusesWhatCannotFly) {
+TEST(Multicopter, RefusesVehiclesThatCannotHover) {
   const auto refused = [](auto change) {
     MulticopterConfig config;
     change(config);
     EXPECT_THROW(Vehicle{VehicleConfig{config}}, std::invalid_argument);
   };
   refused([](auto& c) { c.mass.mass_kg = -1.0; });
-  refused([](auto& c) { c.mass.mass_kg = 3.0; });  // more than the rotors lift
-  refused([](auto& c) { c.arms.pop_back(); });     // the rest cannot balance it
+  refused([](auto& c) { c.mass.mass_kg = 3.0; });  // more than the rotors can lift
+  refused([](auto& c) { c.arms.pop_back(); });     // the remaining rotors cannot balance it
   refused([](auto& c) {
     for (ArmConfig& arm : c.arms) arm.turns = Turns::clockwise;
   });
@@ -245,7 +245,7 @@ TEST(Multicopter, RefusesWhatCannotFly) {
   refused([](auto& c) { c.hull.body_size_m.x() = 0.0; });
 }
 
-TEST(Multicopter, HullHoldsEveryRotorAndArm) {
+TEST(Multicopter, HullContainsEveryRotorAndArm) {
   const std::vector<HullPart> parts = dynamics::hull(VehicleConfig(s900()));
   ASSERT_EQ(parts.size(), 8u);
   EXPECT_NEAR(radius_m(parts), 0.45 + 0.1905, 1e-12);

@@ -36,8 +36,8 @@ inline multicopter::MulticopterConfig hummingbird_b() {
   return c;
 }
 
-// [FurrerBurriAchtelikSiegwart2016] table of parameters in the model file; the published yaw inertia, 0.0977, is larger
-// than the other two together, which no body's is: their sum stands for it.
+// [FurrerBurriAchtelikSiegwart2016] table of parameters in the model file. The published yaw inertia, 0.0977, exceeds
+// the sum of the other two, which is impossible; the sum is used instead.
 inline multicopter::MulticopterConfig firefly() {
   multicopter::MulticopterConfig c;
   c.mass = {1.53, {0.0347563, 0.0458929, 0.0806492}, 0.0};

@@ -43,10 +43,10 @@ TEST(Barometer, WhiteNoiseIsOnePascal) {
   EXPECT_NEAR(std::sqrt(sum2 / kCount), 1.0, 0.03);
 }
 
-TEST(Barometer, SlowErrorHasItsSpreadAndForgetsWithItsTime) {
+TEST(Barometer, SlowErrorHasItsSigmaAndCorrelationTime) {
   BarometerConfig c;
   c.noise_pa = 0.0;
-  c.wander_time_s = 4.0;                        // short, so that the decay shows
+  c.wander_time_s = 4.0;                        // short, so that the decay is visible
   constexpr int kFlights = 3000, kLater = 100;  // 2 s at 50 Hz
   double first2 = 0.0, last2 = 0.0, product = 0.0;
   for (int i = 0; i < kFlights; ++i) {
@@ -61,7 +61,7 @@ TEST(Barometer, SlowErrorHasItsSpreadAndForgetsWithItsTime) {
   EXPECT_NEAR(product / kFlights, 144.0 * std::exp(-0.5), 0.08 * 144.0);
 }
 
-TEST(Barometer, ReadsAClimbATimeConstantLateInTheEnd) {
+TEST(Barometer, LagsAClimbByItsTimeConstant) {
   BarometerConfig c;
   c.noise_pa = c.wander_pa = 0.0;
   c.lag_s = 0.1;
@@ -74,12 +74,12 @@ TEST(Barometer, ReadsAClimbATimeConstantLateInTheEnd) {
     late.observe(kClimbMps * 0.002 * tick);
     late_pa = *late.read();
   }
-  // A first-order lag of a ramp is behind by the time constant; sampled, by up to half a tick more or less.
+  // A first-order lag delays a ramp by the time constant; sampled, by up to half a tick more or less.
   EXPECT_NEAR(late_pa, *at(prompt, kClimbMps * (1.0 - 0.1)), 12.0 * kClimbMps * 0.0011);
   EXPECT_GT(std::abs(late_pa - *at(prompt, kClimbMps)), 12.0 * kClimbMps * 0.09);
 }
 
-TEST(Barometer, LosesItsShareOfReadings) {
+TEST(Barometer, DropsTheConfiguredShareOfReadings) {
   BarometerConfig c;
   c.dropout = 0.2;
   Barometer barometer(c, 0.002, 4);
@@ -89,7 +89,7 @@ TEST(Barometer, LosesItsShareOfReadings) {
   EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.2, 0.012);
 }
 
-TEST(Barometer, RefusesWhatCannotBe) {
+TEST(Barometer, RefusesInvalidConfigs) {
   BarometerConfig c;
   c.rate_hz = 30.0;
   EXPECT_THAT([&] { Barometer(c, 0.002, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("barometer.rate: ")));

@@ -22,7 +22,7 @@ GpsConfig exact() {
 }
 
 // Check AS6.
-TEST(Gps, AS6_FixesAreALatencyOld) {
+TEST(Gps, AS6_FixesAreDelayedByTheLatency) {
   constexpr double kDt = 0.002, kSpeed = 5.0;
   Gps gps(exact(), kDt, 1);
   EXPECT_EQ(gps.period(), 100);
@@ -32,7 +32,7 @@ TEST(Gps, AS6_FixesAreALatencyOld) {
     gps.observe({kSpeed * t, 0.0, -10.0}, {kSpeed, 0.0, 0.0});
     if (tick % gps.period() != 0) continue;
     const std::optional<GpsFix> fix = gps.read();
-    EXPECT_EQ(fix.has_value(), tick > 0);  // the first would be older than the flight
+    EXPECT_EQ(fix.has_value(), tick > 0);  // the first fix would be from before the flight
     if (!fix) continue;
     ++fixes;
     expect_recorded("lag of the position at 5 m/s, m", kSpeed * t - fix->p_WB_W_meas.x(), 0.60, 1e-9);
@@ -41,7 +41,7 @@ TEST(Gps, AS6_FixesAreALatencyOld) {
   EXPECT_EQ(fixes, 9);
 }
 
-TEST(Gps, ErrorsHaveTheirSpreadAndCorrelation) {
+TEST(Gps, ErrorsHaveTheirSigmaAndCorrelation) {
   GpsConfig c;
   c.latency_s = 0.0;
   constexpr int kFlights = 3000;
@@ -65,7 +65,7 @@ TEST(Gps, ErrorsHaveTheirSpreadAndCorrelation) {
   EXPECT_NEAR(std::sqrt(velocity2 / (3 * kFlights)), 0.1, 0.003);
 }
 
-TEST(Gps, GivesNothingWithoutReception) {
+TEST(Gps, HasNoFixWithoutReception) {
   GpsConfig c;
   c.enabled = false;
   Gps gps(c, 0.2, 1);
@@ -75,7 +75,7 @@ TEST(Gps, GivesNothingWithoutReception) {
   }
 }
 
-TEST(Gps, LosesItsShareOfFixes) {
+TEST(Gps, DropsTheConfiguredShareOfFixes) {
   GpsConfig c = exact();
   c.latency_s = 0.0;
   c.dropout = 0.3;
@@ -89,7 +89,7 @@ TEST(Gps, LosesItsShareOfFixes) {
   EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.3, 0.013);  // four standard errors
 }
 
-TEST(Gps, RefusesWhatCannotBe) {
+TEST(Gps, RefusesInvalidConfigs) {
   GpsConfig c;
   c.rate_hz = 7.0;
   EXPECT_THAT([&] { Gps(c, 0.002, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("gps.rate: ")));

@@ -64,7 +64,7 @@ TEST(Imu, AS2_WhiteNoiseHasTheDensitysLevelAtAnyRate) {
                            kSigmaTolerance);
 }
 
-TEST(Imu, AS2_SteadyBiasesSpreadAsPublished) {
+TEST(Imu, AS2_BiasesHaveThePublishedSigma) {
   ImuConfig c = no_noise();
   c.gyro_bias_walk = ImuConfig().gyro_bias_walk;
   c.accelerometer_bias_walk = ImuConfig().accelerometer_bias_walk;
@@ -104,11 +104,11 @@ TEST(Imu, AS3_AllanDeviationOfTheGyroIsTheDensityAtOneSecondAndFallsWithTheRoot)
   expect_recorded("Allan deviation, 1 s over 4 s", allan(mean_1s) / allan(mean_4s), 2.0, 0.15);
 }
 
-TEST(Imu, WanderingBiasIsStationaryAndForgetsWithItsCorrelationTime) {
+TEST(Imu, WanderingBiasIsStationaryWithItsCorrelationTime) {
   ImuConfig c = no_noise();
   c.gyro_bias_walk = 3.879e-5;
   c.accelerometer_bias_walk = 0.006;
-  c.accelerometer_bias_time_s = 3.0;  // short, so that the decay shows
+  c.accelerometer_bias_time_s = 3.0;  // short, so that the decay is visible
   constexpr int kFlights = 4000;
   double gyro2 = 0.0, first2 = 0.0, last2 = 0.0, product = 0.0;
   for (int i = 0; i < kFlights; ++i) {
@@ -127,7 +127,7 @@ TEST(Imu, WanderingBiasIsStationaryAndForgetsWithItsCorrelationTime) {
   EXPECT_NEAR(product / first2, std::exp(-1.0 / 3.0), 0.03);
 }
 
-TEST(Imu, TurnOnOffsetsSpreadAsSet) {
+TEST(Imu, TurnOnOffsetsHaveTheConfiguredSigma) {
   ImuConfig c = no_noise();
   c.gyro_offset_radps = 0.0087;
   c.accelerometer_offset_mps2 = 0.196;
@@ -143,7 +143,7 @@ TEST(Imu, TurnOnOffsetsSpreadAsSet) {
 }
 
 // Check AS5.
-TEST(Imu, AS5_FeelsCentripetalAndEulerAccelerationAtItsPlace) {
+TEST(Imu, AS5_MeasuresCentripetalAndEulerAccelerationAtItsPosition) {
   ImuConfig c = no_noise();
   c.p_BI_m = {0.1, 0.0, 0.0};
   Imu spinning(c, 0.002, 1);
@@ -162,8 +162,8 @@ TEST(Imu, AS5_FeelsCentripetalAndEulerAccelerationAtItsPlace) {
   EXPECT_NEAR(turning.read().specific_force_B_meas.y(), 0.3, 1e-3);
 }
 
-// Check AS6: at the cut-off the gain falls by half the share by which the frequency rises, so 2 % of it are 1 %.
-TEST(Imu, AS6_FilterStandsAtMinusThreeDecibelsAtItsCutoff) {
+// Check AS6: at the cut-off, 2 % more frequency changes the gain by 1 %.
+TEST(Imu, AS6_FilterGainIsMinusThreeDecibelsAtItsCutoff) {
   for (const double cutoff_hz : {30.0, 50.0, 80.0}) {
     for (const double physics_hz : {500.0, 1000.0}) {
       ImuConfig c = no_noise();
@@ -194,7 +194,7 @@ TEST(Imu, SaturatesAtItsRange) {
   EXPECT_DOUBLE_EQ(r.specific_force_B_meas.y(), c.accelerometer_range_mps2);
 }
 
-TEST(Imu, RefusesWhatCannotBe) {
+TEST(Imu, RefusesInvalidConfigs) {
   ImuConfig c;
   c.rate_hz = 300.0;
   EXPECT_THAT([&] { Imu(c, 0.002, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("imu.rate: ")));

@@ -10,7 +10,7 @@
 namespace hedgehop::dynamics::sensors {
 namespace {
 
-TEST(Magnetometer, KeepsItsOffsetAndScattersRoundIt) {
+TEST(Magnetometer, OffsetIsConstantWithNoiseAroundIt) {
   const MagnetometerConfig c;
   constexpr int kFlights = 3000;
   double offsets2 = 0.0, noise2 = 0.0;
@@ -23,12 +23,12 @@ TEST(Magnetometer, KeepsItsOffsetAndScattersRoundIt) {
   EXPECT_NEAR(std::sqrt(noise2 / kFlights), c.noise_rad, 0.05 * c.noise_rad);
 }
 
-TEST(Magnetometer, ReadsWithinHalfATurn) {
+TEST(Magnetometer, HeadingIsWithinHalfATurn) {
   Magnetometer compass({}, 0.002, 3);
   for (int i = 0; i < 100; ++i) EXPECT_LE(std::abs(*compass.read(3.14159)), 3.14159265358979324);
 }
 
-TEST(Magnetometer, LosesItsShareOfReadings) {
+TEST(Magnetometer, DropsTheConfiguredShareOfReadings) {
   MagnetometerConfig c;
   c.dropout = 0.2;
   Magnetometer compass(c, 0.002, 4);
@@ -38,7 +38,7 @@ TEST(Magnetometer, LosesItsShareOfReadings) {
   EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.2, 0.012);
 }
 
-TEST(Magnetometer, ReadsNothingWhenOffAndRefusesAShareAboveOne) {
+TEST(Magnetometer, HasNoReadingIfDisabledAndRefusesAProbabilityAboveOne) {
   MagnetometerConfig c;
   c.enabled = false;
   EXPECT_FALSE(Magnetometer(c, 0.002, 1).read(1.0).has_value());

@@ -8,8 +8,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "dynamics/sensors/range_finder.h"
-
 namespace hedgehop::dynamics::sensors {
 namespace {
 
@@ -47,7 +45,7 @@ TEST(Ranger, NoiseGrowsWithTheRange) {
   }
 }
 
-TEST(Ranger, KeepsItsOffsetForAFlight) {
+TEST(Ranger, OffsetIsConstantDuringAFlight) {
   RangerConfig c = exact();
   c.offset_m = 0.05;
   constexpr int kFlights = 3000;
@@ -61,7 +59,7 @@ TEST(Ranger, KeepsItsOffsetForAFlight) {
   EXPECT_NEAR(std::sqrt(offsets2 / kFlights), c.offset_m, 0.05 * c.offset_m);
 }
 
-TEST(Ranger, LosesItsShareOfReadingsWithoutDisturbingTheOthers) {
+TEST(Ranger, DropoutsDoNotChangeOtherReadings) {
   RangerConfig sure, unsure;
   sure.dropout = 0.0;
   unsure.dropout = 0.2;
@@ -80,8 +78,8 @@ TEST(Ranger, LosesItsShareOfReadingsWithoutDisturbingTheOthers) {
   EXPECT_NEAR(static_cast<double>(lost) / kCount, 0.2, 0.012);
 }
 
-// Check AS6, with a latency below, of and between whole periods of 10 ticks.
-TEST(Ranger, AS6_ReadingsOfAWallThatNearsAreALatencyOld) {
+// Check AS6, with latencies below one period of 10 ticks, of whole periods, and between them.
+TEST(Ranger, AS6_ReadingsOfAnApproachingWallAreDelayedByTheLatency) {
   constexpr double kSpeed = 4.0;
   for (const int64_t latency : {0, 3, 10, 25, 50}) {
     RangerConfig c = exact();
@@ -105,7 +103,7 @@ TEST(Ranger, AS6_ReadingsOfAWallThatNearsAreALatencyOld) {
   }
 }
 
-TEST(Ranger, IsBlindOutOfRangeAndWhenOff) {
+TEST(Ranger, HasNoReadingOutOfRangeOrIfDisabled) {
   const auto reads = [](const RangerConfig& c, double distance_m) {
     Ranger ranger("r", c, kDt, 1);
     return read(ranger, distance_m).has_value();
@@ -122,7 +120,7 @@ TEST(Ranger, IsBlindOutOfRangeAndWhenOff) {
   EXPECT_FALSE(reads(off, 10.0));
 }
 
-TEST(Ranger, RefusesWhatCannotBeByItsKey) {
+TEST(Ranger, RefusesInvalidConfigsByTheirKey) {
   const auto refuses = [](const RangerConfig& c, const char* key) {
     EXPECT_THAT([&] { Ranger("laser", c, kDt, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr(key)));
   };
@@ -140,7 +138,7 @@ TEST(Ranger, RefusesWhatCannotBeByItsKey) {
   refuses(c, "laser.rate: ");
 }
 
-TEST(RangeFinder, BeamHasLengthOneWhateverLengthItIsGiven) {
+TEST(RangeFinder, BeamDirectionIsNormalized) {
   RangeFinderConfig c;
   c.direction_B = {0.0, 3.0, 4.0};
   EXPECT_NEAR((beam_direction_B(c) - Eigen::Vector3d{0.0, 0.6, 0.8}).norm(), 0.0, 1e-15);

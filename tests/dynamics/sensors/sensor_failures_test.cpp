@@ -1,4 +1,4 @@
-#include "dynamics/sensors/sensor_failures.h"
+#include "dynamics/sensors/sensor_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ SensorFailures failing(Mode mode, double value = 0.0, int axis = 0) {
 }
 Eigen::Vector3d reading(int64_t t_ms) { return {static_cast<double>(t_ms), -1.0, 2.0}; }
 
-TEST(SensorFailures, ChangeNoBitBeforeAndAfterAndOfOtherInstruments) {
+TEST(SensorFailures, DoNotChangeOtherTimesOrInstruments) {
   for (const Mode mode : {Mode::off, Mode::stuck, Mode::bias, Mode::noise}) {
     SensorFailures failures = failing(mode, 3.0);
     for (const int64_t t_ms : {0, 99, 200, 500}) {
@@ -26,9 +26,9 @@ TEST(SensorFailures, ChangeNoBitBeforeAndAfterAndOfOtherInstruments) {
   }
 }
 
-TEST(SensorFailures, OffDeliversNothingAndStuckTheLastReading) {
+TEST(SensorFailures, OffDeliversNoReadingAndStuckTheLastOne) {
   SensorFailures off = failing(Mode::off), stuck = failing(Mode::stuck);
-  EXPECT_EQ(stuck.deliver(Instrument::gps, 100 * kMs, reading(100)), std::nullopt);  // nothing was read before
+  EXPECT_EQ(stuck.deliver(Instrument::gps, 100 * kMs, reading(100)), std::nullopt);  // no previous reading
   for (const int64_t t_ms : {0, 50}) stuck.deliver(Instrument::gps, t_ms * kMs, reading(t_ms));
   for (const int64_t t_ms : {100, 150, 199}) {
     EXPECT_EQ(off.deliver(Instrument::gps, t_ms * kMs, reading(t_ms)), std::nullopt);
@@ -44,7 +44,7 @@ TEST(SensorFailures, BiasIsAddedToOneComponent) {
   EXPECT_EQ(height.deliver(Instrument::height_sensor, 0, std::optional<double>()), std::nullopt);
 }
 
-TEST(SensorFailures, NoiseHasItsStandardDeviationAndItsOwnSeed) {
+TEST(SensorFailures, NoiseHasItsSigmaAndItsOwnSeed) {
   constexpr int kCount = 20000;
   SensorFailures a({{Instrument::gyros, Mode::noise, 0, kCount, 0.2, 0, 7}}), same = a;
   SensorFailures other({{Instrument::gyros, Mode::noise, 0, kCount, 0.2, 0, 8}});

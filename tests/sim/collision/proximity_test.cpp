@@ -67,17 +67,17 @@ scenes::Scene city(int side, uint64_t seed) {
   return scene_of(std::move(solids));
 }
 
-TEST(Proximity, OfALevelHullToAWall) {
+TEST(Proximity, ClearanceOfALevelHullToAWallIsExact) {
   CollisionWorld world(scene_of({box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0})}), helicopter());
   const Proximity found = world.query(pose({5.0, 2.0, -10.0}), 100.0, 0.0);
-  EXPECT_NEAR(found.obstacle_clearance_m, 12.0 - 5.0 - 0.9, kExactM);  // the rotor reaches farthest
+  EXPECT_NEAR(found.obstacle_clearance_m, 12.0 - 5.0 - 0.9, kExactM);  // the rotor is the part nearest to the wall
   EXPECT_EQ(found.nearest_solid, 0u);
   EXPECT_NEAR(found.nearest_point_W.x(), 12.0, kExactM);
   EXPECT_NEAR(found.ground_clearance_m, 9.75, kExactM);  // under the fuselage
   EXPECT_FALSE(found.collided);
 }
 
-// The rim of a disc banked by phi hangs R sin(phi) + h cos(phi) below its center.
+// The rim of a disc banked by phi is R sin(phi) + h cos(phi) below its center.
 TEST(Proximity, GroundClearanceOfABankedRotorFollowsItsSine) {
   const double radius_m = 0.9, half_thickness_m = 0.05, height_m = 2.0;
   CollisionWorld world(scene_of({}), {{HullPart::Shape::cylinder, {0, 0, 0}, {radius_m, radius_m, half_thickness_m}}});
@@ -104,7 +104,7 @@ TEST(Proximity, GroundClearanceOfABoxIsThatOfItsLowestCorner) {
   }
 }
 
-TEST(Proximity, TellsAHitFromANearMiss) {
+TEST(Proximity, DistinguishesAHitFromANearMiss) {
   CollisionWorld world(scene_of({box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0})}), helicopter());
   EXPECT_FALSE(world.query(pose({11.0999, 0.0, -10.0}), 100.0, 0.0).collided);
   const Proximity hit = world.query(pose({11.1001, 0.0, -10.0}), 100.0, 0.0);
@@ -116,7 +116,7 @@ TEST(Proximity, TellsAHitFromANearMiss) {
   EXPECT_FALSE(world.query(pose({0.0, 0.0, -0.3}), 100.0, 0.0).collided);
 }
 
-TEST(Proximity, NothingWithinTheSearchRadiusIsInfinitelyFar) {
+TEST(Proximity, ClearanceIsInfiniteBeyondTheSearchRadius) {
   CollisionWorld world(scene_of({box({50.0, 0.0, 0.0}, {1.0, 1.0, 1.0})}, false), helicopter());
   const Proximity beyond = world.query(pose({0, 0, 0}), 48.0, 0.0);
   EXPECT_EQ(beyond.obstacle_clearance_m, kInfinity);
@@ -124,10 +124,11 @@ TEST(Proximity, NothingWithinTheSearchRadiusIsInfinitelyFar) {
   EXPECT_FALSE(beyond.nearest_solid.has_value());
   EXPECT_FALSE(beyond.collided);
   EXPECT_NEAR(world.query(pose({0, 0, 0}), 48.2, 0.0).obstacle_clearance_m, 48.1, kExactM);
-  EXPECT_EQ(world.query(pose({0, 0, 0}), 48.0, 0.0).obstacle_clearance_m, kInfinity);  // though now it is remembered
+  EXPECT_EQ(world.query(pose({0, 0, 0}), 48.0, 0.0).obstacle_clearance_m,
+            kInfinity);  // although the solid was found before
 }
 
-TEST(Proximity, AmongTenThousandSolidsIsTheNearestOfAll) {
+TEST(Proximity, FindsTheNearestOfTenThousandSolids) {
   const scenes::Scene scene = city(100, 1);
   CollisionWorld world(scene, helicopter());
   RandomPoses poses{std::mt19937_64(2)};
@@ -169,7 +170,7 @@ TEST(Proximity, OfEquallyNearSolidsNamesTheFirst) {
   EXPECT_EQ(world.query(pose({0, 0, 0}), 20.0, 0.0).nearest_solid, 1u);
 }
 
-// Moving scene and vehicle together changes nothing, be it by a kilometer and a half.
+// A common motion of scene and vehicle does not change the result, even by 1.5 km.
 TEST(Proximity, IsInvariantUnderRigidMotionAndFarFromTheOrigin) {
   scenes::Scene here = city(5, 8);
   here.has_ground = false;
@@ -200,7 +201,7 @@ TEST(HeightAboveSurface, IsMeasuredToTheHighestRoofBelow) {
               1e-12);  // penthouse at 24 m, the slab at 59 m is above
   EXPECT_NEAR(world.height_above_surface({1, 1, -70}, 0.0), 9.0, 1e-12);  // the slab's top at 61 m
   EXPECT_EQ(world.height_above_surface({1, 1, -15}, 0.0), 0.0);           // inside
-  EXPECT_EQ(world.height_above_surface({20, 0, 1}, 0.0), 0.0);            // under the ground
+  EXPECT_EQ(world.height_above_surface({20, 0, 1}, 0.0), 0.0);            // below ground
 }
 
 TEST(HeightAboveSurface, OverATiltedRoofFollowsItsSlope) {
@@ -221,7 +222,7 @@ TEST(HeightAboveSurface, WithoutGroundOrRoofIsInfinite) {
   EXPECT_NEAR(world.height_above_surface({0, 0, -10}, 0.0), 9.0, 1e-12);
 }
 
-TEST(CollisionWorld, RefusesBodiesThatAreNone) {
+TEST(CollisionWorld, RefusesInvalidBodies) {
   const std::vector<HullPart> good = helicopter();
   EXPECT_THROW(CollisionWorld(scene_of({}), {}), std::invalid_argument);
   EXPECT_THROW(CollisionWorld(scene_of({}), {{HullPart::Shape::box, {0, 0, 0}, {1, 0, 1}}}), std::invalid_argument);

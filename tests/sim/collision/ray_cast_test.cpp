@@ -41,7 +41,7 @@ CollisionWorld world_of(const std::vector<scenes::Solid>& solids, bool has_groun
   return {scene, {{dynamics::HullPart::Shape::box, Vector3d::Zero(), {0.2, 0.2, 0.1}}}};
 }
 
-// How far the beam flies to a box: between three pairs of planes. 0 inside.
+// Distance along the beam to a box, by three pairs of planes; 0 inside.
 double by_planes(const scenes::Solid& solid, const Vector3d& p_W, const Vector3d& direction_W) {
   const Vector3d p_S = solid.X_WS.inverse() * p_W, d_S = solid.X_WS.linear().transpose() * direction_W;
   double enter_m = 0.0, leave_m = kInfinity;
@@ -54,7 +54,7 @@ double by_planes(const scenes::Solid& solid, const Vector3d& p_W, const Vector3d
   return enter_m <= leave_m ? enter_m : kInfinity;
 }
 
-TEST(RayCast, MeetsAWallAtItsDistanceOverTheCosineOfTheAngle) {
+TEST(RayCast, DistanceOfAWallIsItsNormalDistanceOverTheCosine) {
   const CollisionWorld world = world_of({turned_box({13.0, 0.0, -20.0}, {1.0, 300.0, 20.0}, 0.0)});
   for (const double angle_deg : {-80.0, -45.0, -10.0, 0.0, 10.0, 45.0, 80.0}) {
     const double angle = angle_deg * std::numbers::pi / 180.0;
@@ -64,7 +64,7 @@ TEST(RayCast, MeetsAWallAtItsDistanceOverTheCosineOfTheAngle) {
   }
 }
 
-TEST(RayCast, MeetsTheGroundAtItsHeightOverTheSineOfTheDive) {
+TEST(RayCast, DistanceOfTheGroundIsTheHeightOverTheSine) {
   const CollisionWorld world = world_of({}), void_below = world_of({}, false);
   for (double dive = 0.2; dive < 1.5; dive += 0.1) {
     const Vector3d down(std::cos(dive), 0.0, std::sin(dive));
@@ -83,7 +83,7 @@ TEST(RayCast, EndsWithItsReach) {
   EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitZ(), 10.01, kNow), 10.0, 1e-12);
 }
 
-// Of many boxes the nearest, found by asking each one in closed form.
+// The nearest of many boxes, each by its closed form.
 TEST(RayCast, AgreesWithBruteForceOverRandomCities) {
   Random random{std::mt19937_64(41)};
   int hits = 0;
@@ -113,7 +113,7 @@ TEST(RayCast, AgreesWithBruteForceOverRandomCities) {
   EXPECT_GT(hits, 1000);
 }
 
-TEST(RayCast, SeesSpheresAndCylindersWhereTheirEquationsPutThem) {
+TEST(RayCast, HitsSpheresAndCylindersAtTheRootsOfTheirEquations) {
   scenes::Solid sphere, post;
   sphere.shape = scenes::Solid::Shape::sphere;
   sphere.half_extents_m = {2.0, 2.0, 2.0};
@@ -129,7 +129,7 @@ TEST(RayCast, SeesSpheresAndCylindersWhereTheirEquationsPutThem) {
               20.0 - std::sqrt(1.0 - aside_m * aside_m), kExactM);
 }
 
-TEST(RayCast, MeetsAMoverWhereItIsByThen) {
+TEST(RayCast, HitsAMoverAtItsPositionAtThatTime) {
   scenes::Scene scene;
   scenes::Mover& mover = scene.movers.emplace_back();
   mover.solids.emplace_back();  // a cube of 2 m

@@ -1,4 +1,4 @@
-#include "sim/collision/separation.h"
+#include "sim/collision/convex_body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Shape = ConvexBody::Shape;
 
-constexpr double kExactM = 2e-7;        // separate() promises 1e-7, the closed forms round
-constexpr double kBulletDepthM = 1e-4;  // separate() promises no more inside
+constexpr double kExactM = 2e-7;        // separate() has 1e-7; the closed forms add rounding
+constexpr double kBulletDepthM = 1e-4;  // accuracy of depths of overlap
 
 const Eigen::Quaterniond kLevel = Eigen::Quaterniond::Identity();
 
@@ -32,8 +32,7 @@ Vector3d random_vector(std::mt19937_64& random, double below) {
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-// Alternating projections lead to a common point of two convex bodies if there is one, slowly where they barely
-// overlap.
+// Alternating projections converge to a common point of two convex bodies if there is one, slowly for a small overlap.
 bool share_a_point(const PlacedBody& first, const PlacedBody& second) {
   Vector3d p = first.X_WS.translation();
   for (int i = 0; i < 1000; ++i) p = first.nearest(second.nearest(p));
@@ -51,7 +50,7 @@ TEST(Separation, OfBoxesAcrossAFaceAnEdgeAndACorner) {
 }
 
 TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
-  // Two square bars, each on its edge, one along x above one along y: edges cross at a distance of gap.
+  // Two square bars, each on its edge, along x above y: their edges cross at a distance of `gap`.
   const ConvexBody bar(Shape::box, {10.0, 1.0, 1.0});
   const double half_diagonal_m = std::numbers::sqrt2, gap_m = 0.75;
   const Eigen::Quaterniond on_edge(AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX()));
@@ -61,7 +60,7 @@ TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
   EXPECT_NEAR(separate(upper, lower).distance_m, gap_m, kExactM);
 }
 
-// A disc of radius R and half thickness h, tilted by theta from the wall's normal, reaches R sin(theta) + h cos(theta).
+// A disc of radius R and half thickness h, tilted by theta from the wall's normal, extends R sin(theta) + h cos(theta).
 TEST(Separation, OfATiltedDiscFromAWallFollowsSineAndCosine) {
   const double radius_m = 0.9, half_thickness_m = 0.05, wall_m = 5.0;
   const ConvexBody disc(Shape::cylinder, {radius_m, radius_m, half_thickness_m});
@@ -78,8 +77,8 @@ TEST(Separation, OfATiltedDiscFromAWallFollowsSineAndCosine) {
   }
 }
 
-// Independent oracle: the best of many points spread over one body, each measured to the other in closed form.
-TEST(Separation, UnderAWideCeilingIsThatOfTheHighestPointHoweverNearlyParallel) {
+// Independent oracle: the minimum over many points of one body, each with its closed-form distance to the other.
+TEST(Separation, BelowAWideCeilingIsThatOfTheHighestPointForAnyTilt) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> exponent(-9.0, -0.5), turn(-4.0, 4.0), gap(0.01, 4.0);
   const ConvexBody slab(Shape::box, {8.2, 4.2, 0.1});
@@ -91,13 +90,13 @@ TEST(Separation, UnderAWideCeilingIsThatOfTheHighestPointHoweverNearlyParallel) 
                                  AngleAxisd(roll, Vector3d::UnitX()));
       const PlacedBody below(body, at({0.4, -0.2, 0.0}, q));
       const double gap_m = gap(random);
-      const PlacedBody ceiling(slab, at({0.0, 0.0, -below.reach(-Vector3d::UnitZ()) - gap_m - 0.1}));
+      const PlacedBody ceiling(slab, at({0.0, 0.0, -below.extent(-Vector3d::UnitZ()) - gap_m - 0.1}));
       ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kExactM) << "roll " << roll << " pitch " << pitch;
     }
   }
 }
 
-TEST(Separation, IsBelowEverySampledDistanceAndNearTheBest) {
+TEST(Separation, IsBelowEverySampledDistanceAndNearTheMinimum) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi), share(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {
@@ -107,7 +106,7 @@ TEST(Separation, IsBelowEverySampledDistanceAndNearTheBest) {
     const PlacedBody first(cylinder, at(random_vector(random, 4.0) + Vector3d(6, 0, 0), random_turn(random)));
     const PlacedBody second(box, at(random_vector(random, 1.0), random_turn(random)));
     double best_m = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 4000; ++k) {  // the nearest point lies on one of the two rims or on a flat end
+    for (int k = 0; k < 4000; ++k) {  // the nearest point is on one of the two rims or on a flat end
       const double angle = turn(random), r = radius_m * (k % 2 ? 1.0 : std::sqrt(share(random)));
       const Vector3d p_S(r * std::cos(angle), r * std::sin(angle), k % 4 < 2 ? half_height_m : -half_height_m);
       const Vector3d p_2 = second.X_SW * (first.X_WS * p_S);
@@ -119,8 +118,8 @@ TEST(Separation, IsBelowEverySampledDistanceAndNearTheBest) {
   }
 }
 
-// The certificate behind the distance: a wall of that thickness fits between the bodies, so none nearer can be.
-TEST(Separation, IsProvedByASlabThatFitsBetween) {
+// Certificate of the distance: a slab of that thickness between the bodies is a lower bound.
+TEST(Separation, IsCertifiedByASlabBetweenTheBodies) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int apart = 0;
@@ -141,7 +140,7 @@ TEST(Separation, IsProvedByASlabThatFitsBetween) {
     ASSERT_NEAR((first.nearest(a) - a).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((second.nearest(b) - b).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((b - a).norm(), found.distance_m, 1e-9) << "pair " << i;
-    ASSERT_NEAR(-second.reach(-n) - first.reach(n), found.distance_m, kExactM) << "pair " << i;
+    ASSERT_NEAR(-second.extent(-n) - first.extent(n), found.distance_m, kExactM) << "pair " << i;
   }
   EXPECT_GT(apart, 50000);
 }
@@ -156,7 +155,7 @@ TEST(Separation, DepthOfAnOverlapAcrossTheNearestFace) {
   EXPECT_NEAR(separate(PlacedBody(disc, at({0.1, 0.3, -10.4})), origin).distance_m, -0.1, kBulletDepthM);
 }
 
-TEST(Separation, ChangesSignWhereADiscTouchesAWall) {
+TEST(Separation, ChangesSignWhenADiscTouchesAWall) {
   const ConvexBody disc(Shape::cylinder, {0.9, 0.9, 0.05}), slab(Shape::box, {1.0, 40.0, 40.0});
   const PlacedBody wall(slab, at({1.0, 0.0, 0.0}));
   for (const double gap_m : {1e-3, 1e-4, 1e-5, 1e-6}) {

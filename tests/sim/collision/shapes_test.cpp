@@ -1,4 +1,4 @@
-// Bodies that are not boxes, and bodies that move.
+// Spheres, cylinders, polyhedra and moving bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "scenes/mesh/bodies.h"
 #include "scenes/mesh/mesh_builder.h"
+#include "sim/collision/convex_body.h"
 #include "sim/collision/proximity.h"
-#include "sim/collision/separation.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using scenes::Solid;
 using Shape = ConvexBody::Shape;
 
-constexpr double kExactM = 2e-7;  // separate() promises 1e-7, the closed forms round
+constexpr double kExactM = 2e-7;  // separate() has 1e-7; the closed forms add rounding
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Isometry3d at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
@@ -49,7 +49,7 @@ ConvexBody random_body(std::mt19937_64& random) {
   }
 }
 
-// The corners of a box as a polyhedron of twelve triangles.
+// A box as a polyhedron of twelve triangles.
 scenes::mesh::Polyhedron box_faces(const Vector3d& half_m) {
   scenes::mesh::Polyhedron box;
   for (int k = 0; k < 8; ++k) {
@@ -61,7 +61,7 @@ scenes::mesh::Polyhedron box_faces(const Vector3d& half_m) {
   return box;
 }
 
-TEST(Spheres, AreACenterDistanceLessTheirRadiiApart) {
+TEST(Spheres, SeparationIsCenterDistanceMinusRadii) {
   const ConvexBody ball(Shape::sphere, Vector3d::Constant(0.7)), marble(Shape::sphere, Vector3d::Constant(0.2));
   std::mt19937_64 random(1);
   for (int i = 0; i < 1000; ++i) {
@@ -71,7 +71,7 @@ TEST(Spheres, AreACenterDistanceLessTheirRadiiApart) {
   }
 }
 
-TEST(Spheres, AreAsFarFromABodyAsItsNearestSample) {
+TEST(Spheres, SeparationFromABodyMatchesSamples) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 300; ++i) {
     const ConvexBody body = random_body(random), ball(Shape::sphere, Vector3d::Constant(0.5));
@@ -80,20 +80,20 @@ TEST(Spheres, AreAsFarFromABodyAsItsNearestSample) {
     ASSERT_EQ(one.distance_m, other.distance_m);
     if (one.distance_m <= 0.0) continue;
     ASSERT_NEAR((one.on_first_W - one.on_second_W).norm(), one.distance_m, 1e-9);
-    // No slab wider than the distance fits between, and this one does.
+    // A slab between the bodies is at most as wide as the distance, and this one is as wide.
     const Vector3d n = (one.on_second_W - one.on_first_W).normalized();
-    ASSERT_NEAR(-sphere.reach(-n) - placed.reach(n), one.distance_m, 1e-9);
+    ASSERT_NEAR(-sphere.extent(-n) - placed.extent(n), one.distance_m, 1e-9);
   }
 }
 
-TEST(Spheres, AroundAPointInsideABoxAreAsDeepAsTheWayOut) {
+TEST(Spheres, DepthInsideABoxIsTheDistanceToItsSurface) {
   const ConvexBody box(Shape::box, {1.0, 2.0, 3.0}), ball(Shape::sphere, Vector3d::Constant(0.25));
   const PlacedBody origin(box, at(Vector3d::Zero()));
   EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.8, 0.0, 0.0}))).distance_m, -0.45, 1e-12);
   EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.0, -1.9, 1.0}))).distance_m, -0.35, 1e-12);
 }
 
-TEST(Polyhedra, OfABoxAreTheBox) {
+TEST(Polyhedra, OfABoxEqualTheBox) {
   std::mt19937_64 random(3);
   int apart = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -113,7 +113,7 @@ TEST(Polyhedra, OfABoxAreTheBox) {
   EXPECT_GT(apart, 1500);
 }
 
-TEST(Polyhedra, HaveTheNearestPointThatManySamplesApproach) {
+TEST(Polyhedra, NearestPointAgreesWithManySamples) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (int i = 0; i < 100; ++i) {
@@ -137,7 +137,7 @@ TEST(Polyhedra, HaveTheNearestPointThatManySamplesApproach) {
   }
 }
 
-TEST(Polyhedra, OfOneTriangleAreFlat) {
+TEST(Polyhedra, SingleTrianglesAreFlat) {
   const ConvexBody triangle(scenes::mesh::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
   const ConvexBody disc(Shape::cylinder, {0.5, 0.5, 0.1});
   const PlacedBody flat(triangle, at(Vector3d::Zero()));
@@ -148,14 +148,14 @@ TEST(Polyhedra, OfOneTriangleAreFlat) {
   EXPECT_LE(separate(PlacedBody(disc, at({1, 1, 0.05})), flat).distance_m, 0.0);
 }
 
-TEST(Rays, EnterABodyWhereItsNearestPointIsNoDistanceAway) {
+TEST(Rays, EnterABodyAtZeroDistanceFromIt) {
   std::mt19937_64 random(5);
   int hits = 0;
   for (int i = 0; i < 10000; ++i) {
     const ConvexBody body = i % 4 ? random_body(random) : ConvexBody(Shape::sphere, Vector3d::Constant(0.8));
     const Vector3d p = random_vector(random, 3.0), ray = random_vector(random, 1.0).normalized();
     const double length = body.ray_length(p, ray);
-    // Brute force: march along the ray by the distance to the body, which never oversteps it.
+    // Brute force: advance along the ray by the distance to the body, which never passes it.
     double way = 0.0;
     for (int k = 0; k < 3000 && way < 10.0; ++k) {
       const double step = (body.nearest(p + way * ray) - p - way * ray).norm();
@@ -166,7 +166,7 @@ TEST(Rays, EnterABodyWhereItsNearestPointIsNoDistanceAway) {
       ASSERT_EQ(length, kInfinity) << "ray " << i;
     } else if (std::isfinite(length)) {
       ++hits;
-      ASSERT_NEAR(length, way, 1e-4) << "ray " << i;  // along the surface the march is slow
+      ASSERT_NEAR(length, way, 1e-4) << "ray " << i;  // the steps are short along the surface
     }
   }
   EXPECT_GT(hits, 300);
@@ -184,7 +184,7 @@ std::vector<HullPart> helicopter() {
           {HullPart::Shape::box, {0.1, 0.0, 0.0}, {0.4, 0.15, 0.2}}};
 }
 
-TEST(Movers, AreHitWhereTheyAreAtTheTime) {
+TEST(Movers, CollideAtTheirPositionAtThatTime) {
   scenes::Mover mover;
   mover.motion = scenes::WaypointMotion{.points = {{10, 0, 5}, {-10, 0, 5}}, .speed_mps = 2.0};
   mover.solids = {scenes::mesh::ball_of("ball", {0, 0, -1}, 1.0),
@@ -217,7 +217,7 @@ TEST(Movers, AreHitWhereTheyAreAtTheTime) {
   }
 }
 
-TEST(HeightAboveSurface, OfABallAndAPostIsTheirTop) {
+TEST(HeightAboveSurface, OfASphereAndAPostIsTheirTop) {
   const CollisionWorld world(scene_of({scenes::mesh::ball_of("ball", {0, 0, -10}, 2.0),
                                        scenes::mesh::solid_of("post", scenes::mesh::Post{{9, 0, 0}, 1.0, 4.0})}),
                              helicopter());
@@ -227,7 +227,7 @@ TEST(HeightAboveSurface, OfABallAndAPostIsTheirTop) {
   EXPECT_EQ(world.height_above_surface({9.8, 0.8, -20}, 0.0), kInfinity);
 }
 
-TEST(CollisionWorld, SurfacesAreHitAtTheirTrianglesAndHollowInside) {
+TEST(CollisionWorld, SurfacesCollideAtTheirTrianglesOnly) {
   Solid shell;
   shell.shape = Solid::Shape::surface;
   shell.polyhedron = box_faces({5, 5, 5});
@@ -244,7 +244,7 @@ TEST(CollisionWorld, SurfacesAreHitAtTheirTrianglesAndHollowInside) {
   }
 }
 
-TEST(CollisionWorld, RefusesPolyhedraThatAreNone) {
+TEST(CollisionWorld, RefusesInvalidPolyhedra) {
   const auto refused = [](auto change) {
     Solid solid;
     solid.shape = Solid::Shape::hull;

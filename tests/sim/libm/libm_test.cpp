@@ -15,7 +15,7 @@
 namespace hedgehop::sim {
 namespace {
 
-// The oracle is the C library's long double, 11 bits longer, which these functions do not replace.
+// The oracle is the long double of the C library, with 11 more bits, which these functions do not replace.
 struct Function {
   template <class F>
   Function(const char* its_name, F f) : name(its_name), value(f), exact(f), single(f) {}
@@ -45,8 +45,8 @@ const std::vector<Function2> kFunctions2 = {{"atan2", [](auto y, auto x) { retur
                                             {"hypot", [](auto x, auto y) { return std::hypot(x, y); }},
                                             {"pow", [](auto x, auto y) { return std::pow(x, y); }}};
 
-/// Distance in units of the last place of `exact`, rounded to T; 0 for equal infinities, zeros of one sign, and NaN
-/// twice.
+/// Returns the distance in units of the last place of `exact`, rounded to T; 0 for equal infinities, zeros of equal
+/// sign, and two NaN.
 template <class T>
 double ulps(T value, long double exact) {
   const T rounded = static_cast<T>(exact);
@@ -78,15 +78,15 @@ std::vector<T> arguments(int count) {
   return list;
 }
 
-constexpr double kBoundUlp = 1.0 + 1e-3;     // SLEEF's own, and what the oracle is rounded by
-constexpr double kSubnormalUlp = 1.0 + 0.5;  // where a step on the way falls below the least normal number
+constexpr double kBoundUlp = 1.0 + 1e-3;     // bound of SLEEF, and rounding of the oracle
+constexpr double kSubnormalUlp = 1.0 + 0.5;  // if an intermediate result is subnormal
 
 template <class T>
 double bound(long double exact) {
   return std::abs(exact) < 4 * std::numeric_limits<T>::min() ? kSubnormalUlp : kBoundUlp;
 }
 
-TEST(Libm, FunctionsLieWithinOneUlpOfLongDoubleForEveryArgument) {
+TEST(Libm, FunctionsAreWithinOneUlpOfLongDoubleForEveryArgument) {
   for (const Function& f : kFunctions) {
     for (const double x : arguments<double>(30000)) {
       const long double exact = f.exact(x);
@@ -99,7 +99,7 @@ TEST(Libm, FunctionsLieWithinOneUlpOfLongDoubleForEveryArgument) {
   }
 }
 
-TEST(Libm, FunctionsOfTwoArgumentsLieWithinOneUlpOfLongDouble) {
+TEST(Libm, FunctionsOfTwoArgumentsAreWithinOneUlpOfLongDouble) {
   std::mt19937_64 random(2);
   for (const Function2& f : kFunctions2) {
     const std::vector<double> doubles = arguments<double>(30000);
@@ -116,12 +116,12 @@ TEST(Libm, FunctionsOfTwoArgumentsLieWithinOneUlpOfLongDouble) {
   }
 }
 
-TEST(Libm, SineAndCosineTogetherAreThoseAlone) {
+TEST(Libm, SincosEqualsSineAndCosine) {
   for (const double x : arguments<double>(10000)) {
     if (!std::isfinite(x)) continue;
     double sine = 0.0, cosine = 0.0;
     sincos(x, &sine, &cosine);
-    volatile double alone = x;  // or the compiler asks for both at once
+    volatile double alone = x;  // so that the compiler does not call sincos
     EXPECT_EQ(std::bit_cast<uint64_t>(sine), std::bit_cast<uint64_t>(std::sin(alone))) << x;
     EXPECT_EQ(std::bit_cast<uint64_t>(cosine), std::bit_cast<uint64_t>(std::cos(alone))) << x;
   }
@@ -131,7 +131,7 @@ TEST(Libm, SineAndCosineTogetherAreThoseAlone) {
 uint64_t digest() {
   Fnv1a hash;
   const auto add = [&hash](auto result) {
-    if (std::isnan(result)) result = std::numeric_limits<decltype(result)>::quiet_NaN();  // one NaN of many
+    if (std::isnan(result)) result = std::numeric_limits<decltype(result)>::quiet_NaN();  // the same NaN for all
     for (const char byte : std::bit_cast<std::array<char, sizeof result>>(result)) {
       hash.add(static_cast<unsigned char>(byte));
     }
@@ -147,8 +147,8 @@ uint64_t digest() {
   return hash.value();
 }
 
-// Kept, so that every machine is held to the same bits; another version of SLEEF may change them.
-TEST(Libm, ResultsAreTheBitsThatAreKept) { EXPECT_EQ(digest(), 9242769149961318195U); }
+// Recorded, so that all machines must have the same bits. Another version of SLEEF may change them.
+TEST(Libm, ResultsHaveTheRecordedBits) { EXPECT_EQ(digest(), 9242769149961318195U); }
 
 }  // namespace
 }  // namespace hedgehop::sim

@@ -98,7 +98,7 @@ TEST(Uniform, CoversItsRangeWithoutTheUpperEnd) {
   EXPECT_EQ(unit_interval(std::numeric_limits<uint64_t>::max()), 1.0 - 0x1p-53);
 }
 
-TEST(Chance, HoldsInTheGivenShareOfDraws) {
+TEST(Chance, IsTrueForTheGivenShareOfDraws) {
   Random random(4);
   int count = 0;
   constexpr int kDraws = 100'000;

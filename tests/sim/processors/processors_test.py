@@ -1,10 +1,10 @@
-"""A short flight of each module has the bits of flights.csv on every processor: with the C library's, OpenCV's and
-Mesa's choices of instructions as they are on other processors.
+"""A short flight of each module has the bits of flights.csv on every processor. Other processors are simulated by the
+instruction sets that the C library, OpenCV and Mesa select.
 
     processors_test.py PROGRAM tiles|osmesa|symbols    the test
-    processors_test.py PROGRAM --renew                 flies and writes flights.csv again
+    processors_test.py PROGRAM --renew                 flies and rewrites flights.csv
 
-Where OpenCV, SLEEF or Mesa have other versions than in flights.csv, flights are compared among each other only.
+If OpenCV, SLEEF or Mesa have other versions than in flights.csv, flights are compared only with each other.
 """
 
 import csv
@@ -39,17 +39,17 @@ PROCESSORS = {
     },
 }
 
-# Of libm's functions, those whose results are exact or rounded once in every implementation ...
+# Functions of libm whose results are exact or rounded once in every implementation ...
 EXACT = {"ceil", "copysign", "fabs", "floor", "fma", "fmax", "fmin", "fmod", "frexp", "ldexp", "llround", "lrint", "lround", "modf", "nearbyint",
          "remainder", "rint", "round", "scalbn", "sqrt", "trunc"}
-# ... and those that no flight calls: intervals and tests of campaigns.
+# ... and those that flights do not call: statistics of campaigns.
 STATISTICS = {"erfc", "lgamma"}
 if "avx512f" not in pathlib.Path("/proc/cpuinfo").read_text():
-    del PROCESSORS["tiles"]["no AVX-512"]  # this is such a processor
+    del PROCESSORS["tiles"]["no AVX-512"]  # this processor has none
 
 
 def versions(libraries):
-    """What flights.csv is bound to: tiles are Hedgehop's own, Mesa's pixels are Mesa's."""
+    """Versions of the libraries that determine flights.csv; tiles is part of Hedgehop."""
     mesa = re.findall(r"LLVM [\d.]+|Mesa [\d.]+$", libraries["renderer"])
     return ", ".join([libraries["images"], libraries["functions"], *(mesa or ["tiles"])])
 
@@ -74,7 +74,7 @@ def rows():
 
 
 class Flights(unittest.TestCase):
-    def test_every_processor_flies_what_is_kept(self):
+    def test_every_processor_gives_the_recorded_flights(self):
         for row in rows():
             if row["renderer"] != sys.argv[2]:
                 continue
@@ -95,7 +95,7 @@ class Symbols(unittest.TestCase):
                  for file, kind in ((libm, "[TWi]"), (PROGRAM, "U"))]
         called = {name for name in names[0] & names[1] if name.rstrip("fl") not in EXACT and name not in EXACT | STATISTICS}
         self.assertEqual(called, set())
-        self.assertIn("remainder", names[0] & names[1])  # the names were read
+        self.assertIn("remainder", names[0] & names[1])  # the list of names is valid
 
 
 def renew():

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Index;
 
-/// The least sum over all permutations of the longer side's indices.
+/// Returns the minimum sum over all permutations of the longer side's indices.
 double least_of_permutations(const Eigen::MatrixXd& cost) {
   const Eigen::MatrixXd wide = cost.rows() > cost.cols() ? Eigen::MatrixXd(cost.transpose()) : cost;
   std::vector<Index> columns(static_cast<size_t>(wide.cols()));
@@ -30,16 +30,16 @@ double least_of_permutations(const Eigen::MatrixXd& cost) {
   return least;
 }
 
-TEST(Assignment, CostsNoMoreThanAnyPermutation) {
+TEST(Assignment, CostIsTheMinimumOverAllPermutations) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 400; ++trial) {
     const auto rows = static_cast<Index>(1 + random() % 6), columns = static_cast<Index>(1 + random() % 6);
     Eigen::MatrixXd cost(rows, columns);
-    // Whole numbers bring ties, negative ones too.
+    // Integers, also negative ones, produce ties.
     for (double& entry : cost.reshaped()) {
       entry = trial % 2 == 0 ? uniform(random) : std::floor(5.0 * uniform(random)) - 2.0;
     }
-    const auto assigned = least_cost_assignment(cost);
+    const auto assigned = min_cost_assignment(cost);
     ASSERT_EQ(assigned.size(), static_cast<size_t>(rows));
     std::vector<Index> used;
     double sum = 0.0;
@@ -55,7 +55,7 @@ TEST(Assignment, CostsNoMoreThanAnyPermutation) {
   }
 }
 
-/// Most pairs within the tolerance, and the least sum of distances among those, by trying everything.
+/// Returns the maximum number of pairs within the tolerance with their minimum sum of distances, by exhaustive search.
 std::pair<int, double> best_pairs(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b,
                                   double tolerance_m) {
   std::vector<bool> taken(b.size(), false);
@@ -76,7 +76,7 @@ std::pair<int, double> best_pairs(const std::vector<Eigen::Vector3d>& a, const s
   return best;
 }
 
-TEST(MatchPoints, PairsAsManyAsCanBeAtTheLeastSumOfDistances) {
+TEST(MatchPoints, FindTheMaximumNumberOfPairsWithTheMinimumSumOfDistances) {
   std::mt19937_64 random(6);
   constexpr double kToleranceM = 1.0;
   int refused = 0;
@@ -103,8 +103,8 @@ TEST(MatchPoints, PairsAsManyAsCanBeAtTheLeastSumOfDistances) {
   EXPECT_GT(refused, 100);
 }
 
-// The near point would be the first one's nearest too; then the second would have none.
-TEST(MatchPoints, GiveUpANearerPartnerForOneMorePair) {
+// The near point is nearest to the first one, too; but then the second one would be unmatched.
+TEST(MatchPoints, PreferOneMorePairToANearerPartner) {
   const std::vector<Eigen::Vector3d> a{{0, 0, 0}, {1.2, 0, 0}}, b{{0.4, 0, 0}, {-0.9, 0, 0}};
   const auto partners = match_points(a, b, 1.0);
   EXPECT_EQ(partners[0], std::optional<Index>(1));

@@ -1,4 +1,4 @@
-#include "sim/verdict/checks.h"
+#include "sim/verdict/assessment.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -52,7 +52,7 @@ TEST(Checks, ReachedGoalNeedsDistanceTimeAndOutcome) {
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.within_m = 0.5}).passed);
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.before_s = 19.0}).passed);
   f.flight.result.outcome = Outcome::timeout;
-  f.scenario.goal->altitude_m = 14.5;  // under it
+  f.scenario.goal->altitude_m = 14.5;  // the flight is below it
   const CheckResult low = f.evaluate(ReachedGoalCheck{});
   EXPECT_FALSE(low.passed);
   EXPECT_DOUBLE_EQ(low.value, 4.5);
@@ -61,7 +61,7 @@ TEST(Checks, ReachedGoalNeedsDistanceTimeAndOutcome) {
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{}).passed);
 }
 
-TEST(Checks, ReachedGoalFailsWhereThereIsNoGoal) {
+TEST(Checks, ReachedGoalFailsWithoutAGoal) {
   StraightFlight f;
   f.scenario.goal.reset();
   const CheckResult result = f.evaluate(ReachedGoalCheck{});
@@ -69,14 +69,14 @@ TEST(Checks, ReachedGoalFailsWhereThereIsNoGoal) {
   EXPECT_TRUE(std::isnan(result.value));
 }
 
-TEST(Checks, CollisionIsWhatTheOutcomeSays) {
+TEST(Checks, CollisionFollowsFromTheOutcome) {
   StraightFlight f;
   EXPECT_TRUE(f.evaluate(NoCollisionCheck{}).passed);
   f.flight.result.outcome = Outcome::collided;
   EXPECT_FALSE(f.evaluate(NoCollisionCheck{}).passed);
 }
 
-TEST(Checks, ClearanceTellsObstaclesFromGround) {
+TEST(Checks, ClearanceDistinguishesObstaclesFromGround) {
   using To = MinClearanceCheck::To;
   StraightFlight f;
   EXPECT_DOUBLE_EQ(f.evaluate(MinClearanceCheck{.at_least_m = 1.0, .to = To::obstacles}).value, 1.5);
@@ -97,7 +97,7 @@ TEST(Checks, BandsAndBoxesHoldAtEveryTick) {
   EXPECT_NEAR(outside.value, 0.25, 1e-12);
 }
 
-TEST(Checks, SpeedAndTiltKeepTheirLargestValue) {
+TEST(Checks, SpeedAndTiltReportTheirMaximum) {
   StraightFlight f;
   f.flight.trajectory[3].v_WB_W_true = {2.0, 2.0, 1.0};
   EXPECT_DOUBLE_EQ(f.evaluate(MaxSpeedCheck{.at_most_mps = 2.5}).value, 3.0);
@@ -111,24 +111,24 @@ TEST(Checks, SpeedAndTiltKeepTheirLargestValue) {
   EXPECT_NEAR(tilt_deg, std::acos(R.col(2).z()) * 180.0 / M_PI, 1e-9);
 }
 
-TEST(Checks, MetricOutsideBoundsUnknownOrNotFiniteFails) {
+TEST(Checks, MetricFailsIfOutOfBoundsUnknownOrNotFinite) {
   StraightFlight f;
   EXPECT_TRUE(f.evaluate(MetricCheck{.name = "reversals", .at_least = 3.0, .at_most = 3.0}).passed);
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "reversals", .at_least = 4.0}).passed);
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "reversals", .at_most = 2.0}).passed);
-  EXPECT_FALSE(f.evaluate(MetricCheck{.name = "nothing", .at_most = 2.0}).passed);
+  EXPECT_FALSE(f.evaluate(MetricCheck{.name = "unknown_metric", .at_most = 2.0}).passed);
   f.flight.result.metrics[0].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "reversals"}).passed);
 }
 
-TEST(Checks, AModulesOwnMetricCannotPassForTheJudges) {
+TEST(Checks, ModuleMetricCannotReplaceAHedgehopMetric) {
   StraightFlight f;
   f.flight.result.metrics = {{"module.corners_found", 1.0, "", FigureKind::module}};
   EXPECT_FALSE(f.evaluate(MetricCheck{.name = "corners_found", .at_least = 0.9}).passed);
   EXPECT_TRUE(f.evaluate(MetricCheck{.name = "module.corners_found", .at_least = 0.9}).passed);
 }
 
-TEST(Checks, CollisionIsCheckedOnceListedOrNotUnlessTheScenarioMayCollide) {
+TEST(Checks, CollisionIsCheckedOnceUnlessTheScenarioMayCollide) {
   StraightFlight f;
   f.flight.result.outcome = Outcome::collided;
   const auto names = [&f](const std::vector<CheckConfig>& listed) {
@@ -148,7 +148,7 @@ TEST(Checks, CollisionIsCheckedOnceListedOrNotUnlessTheScenarioMayCollide) {
   EXPECT_EQ(names({MaxSpeedCheck{.at_most_mps = 3.0}}), "max_speed ");
 }
 
-TEST(Checks, NoTruthUsedCountsWhatTheResultLists) {
+TEST(Checks, NoTruthUsedCountsTheEntriesOfTheResult) {
   StraightFlight f;
   EXPECT_TRUE(f.evaluate(NoTruthUsedCheck{}).passed);
   f.flight.result.truth_used = {"camera 'front': depth", "sensor 'gps': exact"};
@@ -157,7 +157,7 @@ TEST(Checks, NoTruthUsedCountsWhatTheResultLists) {
   EXPECT_EQ(result.value, 2.0);
 }
 
-/// The straight flight as a reference in a file of its own, and flights that end before or after it.
+/// The straight flight as a reference in a file, and flights that end before or after it.
 class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measure> {
  protected:
   PathTolerance()
@@ -166,7 +166,7 @@ class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measur
     for (const TrajectoryRow& row : flown_.flight.trajectory) reference.points.push_back({row.t_s, row.p_WB_true});
     std::ofstream(file_) << reference_text(reference);
   }
-  /// @param rows  of the flight, one every 0.1 s and 0.2 m; beyond 201 it goes on.
+  /// @param rows  of the flight, one every 0.1 s and 0.2 m; beyond 201 it continues.
   CheckResult fly(size_t rows, Outcome outcome, double at_most_m) {
     auto& trajectory = flown_.flight.trajectory;
     while (trajectory.size() < rows) {
@@ -186,7 +186,7 @@ class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measur
 
 TEST_P(PathTolerance, HoldsForTheReferenceItself) { EXPECT_TRUE(fly(201, Outcome::timeout, 0.01).passed); }
 
-// Nine tenths of the way, exactly on it: the mean of a warping is well below a meter.
+// The first nine tenths of the path without error: the mean warped distance is well below a meter.
 TEST_P(PathTolerance, FailsAFlightThatEndsEarly) {
   for (const Outcome outcome : {Outcome::collided, Outcome::timeout, Outcome::reached}) {
     const CheckResult result = fly(181, outcome, 1.0);
@@ -195,11 +195,11 @@ TEST_P(PathTolerance, FailsAFlightThatEndsEarly) {
   }
 }
 
-TEST_P(PathTolerance, AtTheGoalAFlightMayBeEarlyByWhatItsToleranceCovers) {
+TEST_P(PathTolerance, FlightMayReachTheGoalEarlyWithinItsTolerance) {
   EXPECT_TRUE(fly(198, Outcome::reached, 1.0).passed);
 }
 
-TEST_P(PathTolerance, ComparesWhatAFlightDoesAfterTheReferenceWithItsEnd) {
+TEST_P(PathTolerance, ComparesTheFlightAfterTheReferenceWithItsEnd) {
   EXPECT_TRUE(fly(204, Outcome::timeout, 1.0).passed);
   const CheckResult beyond = fly(221, Outcome::timeout, 1.0);
   EXPECT_FALSE(beyond.passed);
@@ -210,8 +210,8 @@ INSTANTIATE_TEST_SUITE_P(Measures, PathTolerance,
                          ::testing::Values(PathToleranceCheck::Measure::band, PathToleranceCheck::Measure::frechet,
                                            PathToleranceCheck::Measure::dtw));
 
-// A flight that stops on its way stays where the reference passes by, yet it has not flown the rest.
-TEST(PathToleranceBand, FailsAFlightThatStopsWhereTheReferenceHovers) {
+// A flight that stops early is on the path of the reference, but has not flown the rest.
+TEST(PathToleranceBand, FailsAFlightThatStopsAtTheHoverOfTheReference) {
   StraightFlight f;
   const std::string file = std::string(testing::TempDir()) + "/hover_reference.csv";
   ReferencePath reference{.reason = "hover", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
@@ -231,8 +231,8 @@ TEST(PathToleranceBand, FailsAFlightThatStopsWhereTheReferenceHovers) {
   }
 }
 
-/// Flies a line of places at 1 m/s through the scenario of a wall that is to be climbed, and tells whether all checks
-/// hold. The module's own figures are as asked.
+/// Flies a polyline at 1 m/s in the scenario of a wall to climb, and returns whether all checks hold. The metrics of
+/// the module are within their bounds.
 bool climb_holds(const std::vector<Eigen::Vector3d>& places_W) {
   Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/perez2018_climb.yaml");
   Flight flight;
@@ -256,12 +256,12 @@ bool climb_holds(const std::vector<Eigen::Vector3d>& places_W) {
   return true;
 }
 
-TEST(ClimbOverTheWall, HoldsForAClimbAloneNotForWhatStaysLowFliesRoundOrFarAbove) {
+TEST(ClimbOverTheWall, HoldsOnlyForAClimbOverTheWall) {
   EXPECT_TRUE(climb_holds({{0, 0, -4}, {8, 0, -4}, {9, 0, -12}, {37, 0, -12}}));
-  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 0, -4}, {8, 0, -12}}));  // stays before it
-  EXPECT_FALSE(climb_holds({{0, 0, -4}, {37, 0, -4}}));              // as if it were not there
-  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 32, -4}, {20, 32, -4}, {30, 0, -12}, {37, 0, -12}}));  // round it
-  EXPECT_FALSE(climb_holds({{0, 0, -4}, {0, 0, -40}, {37, 0, -40}, {37, 0, -12}}));                // over everything
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 0, -4}, {8, 0, -12}}));  // stays in front of it
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {37, 0, -4}}));              // through it
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {8, 32, -4}, {20, 32, -4}, {30, 0, -12}, {37, 0, -12}}));  // around it
+  EXPECT_FALSE(climb_holds({{0, 0, -4}, {0, 0, -40}, {37, 0, -40}, {37, 0, -12}}));                // far above
 }
 
 TEST(VisitedShare, EqualsTheDefinitionOnRandomPaths) {

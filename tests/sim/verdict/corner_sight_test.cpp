@@ -1,4 +1,4 @@
-#include "sim/verdict/corner_sight.h"
+#include "sim/verdict/map_score.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ CollisionWorld cube_world() {
   return CollisionWorld(scenes::worlds::make_highrise(kCube, 1), {ball});
 }
 
-// A corner of a box is seen exactly when one of its three faces is turned to the camera.
-TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
+// A corner of a box is in sight exactly if one of its three faces is towards the camera.
+TEST(CornersInSight, OfABoxAreThoseOfTheFacesTowardsTheCamera) {
   const CollisionWorld world = cube_world();
   const std::vector<Vector3d> corners = scenes::worlds::highrise_corners(kCube, 1);
   const vision::camera::Camera camera = vision::camera::PinholeCamera::from_fov(640, 640, std::numbers::pi / 2.0);
@@ -35,7 +35,7 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
   for (int round = 0; round < 300; ++round) {
     const Vector3d p_WC(side(random), side(random), -height(random));
     const Vector3d out = (p_WC - middle).cwiseAbs();
-    if (out.maxCoeff() < 30.0) continue;  // so near that the image does not hold the whole box
+    if (out.maxCoeff() < 30.0) continue;  // too near for an image of the whole box
     const Eigen::Isometry3d X_WC = looking_at(p_WC, middle);
     const auto seen = corners_in_sight(corners, camera, X_WC, &world, 0.0);
     for (size_t k = 0; k < corners.size(); ++k) {
@@ -44,7 +44,7 @@ TEST(CornersInSight, OfABoxAreThoseOfTheFacesTurnedToTheCamera) {
         const double normal = corners[k][axis] > middle[axis] ? 1.0 : -1.0;
         const double above_m = normal * (p_WC[axis] - corners[k][axis]);
         grazing = grazing || std::abs(above_m) < 1.0;                        // the ray runs along that face
-        if (axis < 2 || normal < 0.0) expected = expected || above_m > 0.0;  // nobody looks from below
+        if (axis < 2 || normal < 0.0) expected = expected || above_m > 0.0;  // no camera is below
       }
       if (grazing) continue;
       EXPECT_EQ(seen[k], expected) << "corner " << k << " from " << p_WC.transpose();

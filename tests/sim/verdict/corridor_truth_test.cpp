@@ -39,13 +39,13 @@ TEST(CorridorPlace, FollowsABendAndATaper) {
   EXPECT_NEAR(bent.left_m, 2.7, 1e-12);
   EXPECT_NEAR(bent.right_m, 1.3, 1e-12);
   EXPECT_NEAR(bent.along_m, 16.0, 1e-12);
-  // Half way down a taper from 4 m to 2 m it is 3 m wide.
+  // The middle of a taper from 4 m to 2 m is 3 m wide.
   const CorridorPlace tapered = corridor_place(plan, Eigen::Vector2d(10, 0) + 15.0 * along - 0.2 * right);
   EXPECT_NEAR(tapered.left_m + tapered.right_m, 3.0, 1e-12);
   EXPECT_NEAR(tapered.left_m, 1.3, 1e-12);
 }
 
-// North at 1 m/s along east 0.4 m; the module claims an error that is off by a known amount.
+// North at 1 m/s at 0.4 m east. The module's signal has a known error.
 struct OffsetFlight {
   Scenario scenario;
   Flight flight;
@@ -79,7 +79,7 @@ TEST(CorridorMetrics, DeviationsAreSharesOfTheCorridorsWidth) {
   EXPECT_DOUBLE_EQ(metric(metrics, "centering_known_share"), 0.75);
 }
 
-TEST(CorridorMetrics, OffTheMiddleIsTheVehiclesOwn) {
+TEST(CorridorMetrics, DistanceFromTheCenterLineIsThatOfTheVehicle) {
   const OffsetFlight f;
   const auto metrics = corridor_metrics(f.scenario, f.flight);
   EXPECT_NEAR(metric(metrics, "off_middle_max_m"), 1.4, 1e-12);

@@ -16,7 +16,7 @@ std::optional<double> value(const std::vector<MetricValue>& metrics, std::string
   return {};
 }
 
-/// North along a given law of motion for 10 s towards a goal 52 m away of 2 m radius, in an empty scene.
+/// Flight north by a given law of motion for 10 s towards a goal of 2 m radius at 52 m, in an empty scene.
 template <class Law>
 Flight flight_north(Law north_m, Outcome outcome) {
   Flight flight;
@@ -48,7 +48,7 @@ scenes::Scene empty_scene() {
   return scene;
 }
 
-TEST(FieldMetrics, AreAmongThoseThatChecksMayName) {
+TEST(FieldMetrics, AreValidNamesForChecks) {
   const Flight flight = flight_north([](double t_s) { return 5.0 * t_s; }, Outcome::reached);
   const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
   EXPECT_EQ(metrics.size(), 9u);
@@ -57,7 +57,7 @@ TEST(FieldMetrics, AreAmongThoseThatChecksMayName) {
   }
 }
 
-TEST(FieldMetrics, HalfTheWayIsHalfTheMission) {
+TEST(FieldMetrics, HalfTheDistanceIsHalfTheMission) {
   const Flight flight = flight_north([](double t_s) { return 2.5 * t_s; }, Outcome::timeout);
   const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
   EXPECT_EQ(value(metrics, "success"), 0.0);
@@ -70,26 +70,26 @@ TEST(FieldMetrics, StraightFlightToTheGoalHasNoExcess) {
   const Flight flight = flight_north([](double t_s) { return 5.0 * t_s; }, Outcome::reached);
   const auto metrics = field_metrics(with_goal(), flight, empty_scene(), 0.8);
   EXPECT_EQ(value(metrics, "success"), 1.0);
-  EXPECT_NEAR(*value(metrics, "shortest_path"), 50.0, 0.25);  // a grid's cell
+  EXPECT_NEAR(*value(metrics, "shortest_path"), 50.0, 0.25);  // one cell of the grid
   EXPECT_NEAR(*value(metrics, "path_excess"), 0.0, 0.01);
 }
 
-TEST(FieldMetrics, OffTheCourseIsTheEndsDistanceFromTheStraightLinesOfThePlan) {
+TEST(FieldMetrics, OffCourseIsTheDistanceOfTheEndFromThePlannedCourse) {
   const auto off_course_m = [](const Scenario& scenario, double east_m) {
     Flight flight = flight_north([](double t_s) { return 2.5 * t_s; }, Outcome::timeout);
     flight.trajectory.back().p_WB_true.y() = east_m;
-    flight.trajectory.back().p_WB_est = Eigen::Vector3d::Zero();  // what the vehicle takes itself to be does not count
+    flight.trajectory.back().p_WB_est = Eigen::Vector3d::Zero();  // the estimate is not used
     return *value(field_metrics(scenario, flight, empty_scene(), 0.8), "off_course_at_end_m");
   };
   EXPECT_NEAR(off_course_m(with_goal(), 0.0), 0.0, 1e-12);
   EXPECT_NEAR(off_course_m(with_goal(), -7.0), 7.0, 1e-12);
   Scenario askew = with_goal();
-  askew.goal->east_m = 52.0;  // the end lies 25 m north: 25 sin(45 deg) off
+  askew.goal->east_m = 52.0;  // the end is at 25 m north: 25 sin(45 deg) off course
   EXPECT_NEAR(off_course_m(askew, 0.0), 25.0 / std::sqrt(2.0), 1e-9);
   askew.route = {GoalConfig{.north_m = 52.0}};  // north first, then east
   EXPECT_NEAR(off_course_m(askew, 0.0), 0.0, 1e-12);
   Scenario passed = with_goal();
-  passed.goal->north_m = 21.0;  // 4 m beyond the goal and 3 m aside
+  passed.goal->north_m = 21.0;  // 4 m beyond the goal and 3 m to the side
   EXPECT_NEAR(off_course_m(passed, 3.0), 5.0, 1e-12);
 }
 

@@ -4,12 +4,13 @@
 
 #include <limits>
 
-#include "sim/verdict/checks.h"
+#include "sim/verdict/assessment.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Ten seconds north at 2 m/s, 0.1 s a row; an obstacle comes as near as 1 m at 4.03 s, between two rows.
+/// Ten seconds north at 2 m/s, one row per 0.1 s; the minimum distance of an obstacle is 1 m at 4.03 s, between two
+/// rows.
 struct PassingFlight {
   Scenario scenario;
   Flight flight;
@@ -44,7 +45,7 @@ struct PassingFlight {
   }
 };
 
-TEST(FormulaCheck, AgreesWithMinClearanceThoughTheClosestApproachFallsBetweenRows) {
+TEST(FormulaCheck, AgreesWithMinClearanceIfTheClosestApproachIsBetweenRows) {
   PassingFlight f;
   f.scenario.checks = {MinClearanceCheck{.at_least_m = 1.25}};
   const CheckResult known = evaluate_checks(f.scenario, f.flight, {}, 0.5).front();
@@ -59,18 +60,18 @@ TEST(FormulaCheck, AgreesWithMinClearanceThoughTheClosestApproachFallsBetweenRow
 TEST(FormulaCheck, SignalsAreThoseOfTheFlight) {
   const PassingFlight f;
   constexpr double kRound = 1e-9;
-  EXPECT_NEAR(f.check("always (goal_distance >= 4)").value, 1.0, kRound);  // 5 m are left
+  EXPECT_NEAR(f.check("always (goal_distance >= 4)").value, 1.0, kRound);  // 5 m remain
   EXPECT_NEAR(f.check("always (tilt <= 10)").value, 10.0 - 0.1 * 180.0 / 3.14159265358979, 1e-6);
   EXPECT_NEAR(f.check("always (tracking_error <= 1)").value, 0.5, kRound);
   EXPECT_NEAR(f.check("always (estimation_error <= 1)").value, 0.5, kRound);
-  EXPECT_NEAR(f.check("always (clearance <= 10)").value, 0.5, kRound);  // the ground is never farther
+  EXPECT_NEAR(f.check("always (clearance <= 10)").value, 0.5, kRound);  // the ground is never farther away
   EXPECT_NEAR(f.check("eventually (obstacle_clearance >= 50)").value, 0.0, kRound);
   EXPECT_NEAR(f.check("always[3,5.9] (status == avoid -> speed <= 3)").value, 1.0, kRound);
   EXPECT_FALSE(f.check("always[3,6] (status == avoid)").passed);
   EXPECT_TRUE(f.check("always[3,5.9] (status == avoid)").passed);
 }
 
-TEST(FormulaCheck, EverySignalThatAFormulaMayNameIsThere) {
+TEST(FormulaCheck, ProvidesEverySignalOfFormulas) {
   const PassingFlight f;
   const SampledSignals signals = flight_signals(f.scenario, f.flight);
   for (const FormulaSignal& signal : formula_signals()) {

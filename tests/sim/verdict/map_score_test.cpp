@@ -22,9 +22,9 @@ std::map<std::string, double> values(const MapScore& score) {
   return found;
 }
 
-// Two corners 100 m away, long in sight; the map is 0.6 m off in one of three coordinates at the first: 0.2 %, and
-// lacks the second.
-TEST(MapScore, ErrorMeansOverCoordinatesAndCountsAMissingCornerWhole) {
+// Two corners at 100 m, long in sight. The map has an error of 0.6 m in one of three coordinates at the first corner,
+// which is 0.2 %, and lacks the second.
+TEST(MapScore, ErrorIsTheMeanOverCoordinatesAndAMissingCornerCountsFully) {
   MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(20.0, std::vector<Vector3d>{{100.6, 0, 0}}, {true, true});
   const auto found = values(score);
@@ -35,30 +35,30 @@ TEST(MapScore, ErrorMeansOverCoordinatesAndCountsAMissingCornerWhole) {
   EXPECT_TRUE(std::isnan(found.at("converged_s")));
 }
 
-// Within 3 % of 100 m, so the corner as the thesis asks for it, but farther off than the tolerance.
-TEST(MapScore, ToleranceIsInMetersHoweverFarTheFlightBegan) {
+// Within 3 % of 100 m, which the thesis accepts, but beyond the tolerance.
+TEST(MapScore, ToleranceIsIndependentOfTheStartOfTheFlight) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(20.0, std::vector<Vector3d>{{101.1, 0, 0}}, {true});
   EXPECT_EQ(values(score).at("corners_found"), 0.0);
   EXPECT_EQ(values(score).at("map_precision"), 0.0);
 }
 
-TEST(MapScore, ToleranceIsAMeterButNoMoreThanAQuarterOfTheShortestEdge) {
+TEST(MapScore, ToleranceIsAtMostAQuarterOfTheShortestEdge) {
   EXPECT_EQ(MapScore::tolerance_m(std::numeric_limits<double>::infinity()), 1.0);
   EXPECT_EQ(MapScore::tolerance_m(10.0), 1.0);
   EXPECT_EQ(MapScore::tolerance_m(2.0), 0.5);
 }
 
-// The plain skyline's shortest edge is the 8 m of its third tower; its spires' edges are longer.
-TEST(MapScore, KnowsTheShortestEdgeOfTheHighrises) {
+// The shortest edge of the plain skyline is the 8 m of its third tower; those of its spires are longer.
+TEST(MapScore, ShortestEdgeOfTheHighrisesIsThatOfTheirTower) {
   using scenes::worlds::HighriseConfig;
   EXPECT_NEAR(scenes::worlds::make_highrise({.scale = 0.5}, 1).shortest_edge_m, 4.0, 1e-12);
   EXPECT_NEAR(scenes::worlds::make_highrise({.layout = HighriseConfig::Layout::cube}, 1).shortest_edge_m, 18.0, 1e-12);
   EXPECT_NEAR(MapScore::tolerance_m(scenes::worlds::make_highrise({.scale = 0.1}, 1).shortest_edge_m), 0.2, 1e-12);
 }
 
-// Four points about one corner are one landmark and three false ones, and the corner beside it is not found by them.
-TEST(MapScore, ACornerTakesOnePointAndAPointOneCorner) {
+// Of four points near one corner, one is a match and three are false; the next corner is not found by them.
+TEST(MapScore, MatchesCornersAndPointsOneToOne) {
   MapScore score({{100, 0, 0}, {100, 1.5, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(20.0, std::vector<Vector3d>{{100, 0.1, 0}, {100.2, 0, 0}, {99.8, 0, 0}, {100, -0.3, 0}}, {true, true});
   EXPECT_EQ(values(score).at("corners_found"), 0.5);
@@ -69,7 +69,7 @@ TEST(MapScore, ACornerTakesOnePointAndAPointOneCorner) {
   EXPECT_EQ(values(between).at("corners_found"), 0.5);
 }
 
-TEST(MapScore, ConvergedSinceTheLastTimeItCameWithinThreePercent) {
+TEST(MapScore, ConvergedTimeIsTheLastEntryIntoThreePercent) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   const auto at = [&](double t_s, double off_m) { score.add(t_s, std::vector<Vector3d>{{100 + off_m, 0, 0}}, {true}); };
   at(11, 20);
@@ -81,7 +81,7 @@ TEST(MapScore, ConvergedSinceTheLastTimeItCameWithinThreePercent) {
 }
 
 // Ten corners: nine of them, then nine and a false point (9 of 10), then two false ones (9 of 11).
-TEST(MapScore, CompleteSinceRecallAndPrecisionBothReachNineTenths) {
+TEST(MapScore, CompleteTimeIsWhenRecallAndPrecisionReachNineTenths) {
   std::vector<Vector3d> corners;
   for (int i = 0; i < 10; ++i) corners.emplace_back(100, 10 * i, 0);
   MapScore score(corners, Vector3d::Zero(), kToleranceM);
@@ -99,7 +99,7 @@ TEST(MapScore, CompleteSinceRecallAndPrecisionBothReachNineTenths) {
   EXPECT_EQ(at(15, 10, 0), 15.0);
 }
 
-TEST(MapScore, ACornerCountsOnceItWasInSightForTenSeconds) {
+TEST(MapScore, CornerCountsAfterTenSecondsInSight) {
   MapScore score({{100, 0, 0}, {0, 100, 0}}, Vector3d::Zero(), kToleranceM);
   const auto at = [&](double t_s, bool second) { score.add(t_s, std::vector<Vector3d>{{100, 0, 0}}, {true, second}); };
   at(8, true);
@@ -111,7 +111,7 @@ TEST(MapScore, ACornerCountsOnceItWasInSightForTenSeconds) {
   EXPECT_EQ(values(score).at("corners_found"), 0.5);
 }
 
-TEST(MapScore, PointsAtNoCornerAreFalseThoseAtACornerThatDoesNotCountAreTrue) {
+TEST(MapScore, PointsAwayFromCornersAreFalseThoseAtUncountedCornersAreTrue) {
   MapScore score({{100, 0, -50}}, Vector3d::Zero(), kToleranceM);
   score.add(1.0, std::vector<Vector3d>{{100.5, 0, -50}, {50, 0, 0.9}, {100, 20, -30}, {100, 2, -50}}, {false});
   EXPECT_EQ(values(score).at("false_landmarks"), 3.0);
@@ -119,7 +119,7 @@ TEST(MapScore, PointsAtNoCornerAreFalseThoseAtACornerThatDoesNotCountAreTrue) {
   EXPECT_EQ(values(score).at("map_precision"), 0.25);
 }
 
-TEST(MapScore, AMapThatWasLostIsTheWorst) {
+TEST(MapScore, LostMapHasTheWorstScore) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(20.0, std::vector<Vector3d>{{100, 0, 0}}, {true});
   score.add(21.0, {}, {true});
@@ -129,7 +129,7 @@ TEST(MapScore, AMapThatWasLostIsTheWorst) {
   EXPECT_EQ(found.at("map_error_percent"), 100.0);
 }
 
-TEST(MapScore, MarksWhichPointsAndCornersBelongTogether) {
+TEST(MapScore, MarksMatchedPointsAndCorners) {
   MapScore score({{100, 0, 0}, {0, 100, 0}, {-100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   const std::vector<Vector3d> points_W{{50, 50, 0}, {-100.9, 0, 0}, {100.9, 0, 0}};
   MapRecord map;
@@ -148,13 +148,13 @@ TEST(MapScore, MarksWhichPointsAndCornersBelongTogether) {
   }
 }
 
-TEST(MapScore, SaysNothingOfAModuleWithoutAMap) {
+TEST(MapScore, HasNoMetricsForAModuleWithoutAMap) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(1.0, {}, {true});
   EXPECT_TRUE(score.metrics().empty());
 }
 
-TEST(MapScore, LeavesTheRecordOfAModuleWithoutAMapEmpty) {
+TEST(MapScore, RecordOfAModuleWithoutAMapStaysEmpty) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(20.0, {}, {true});
   MapRecord map;

@@ -25,7 +25,7 @@ Path random_path(std::mt19937_64& generator, size_t points) {
 
 double distance(const TimedPoint& p, const TimedPoint& q) { return (p.p_WB - q.p_WB).norm(); }
 
-/// Visits every way of walking both paths from their first to their last points, as (i, j) pairs.
+/// Calls `visit` for every monotonic walk along both paths from first to last points, as (i, j) pairs.
 void for_each_walk(size_t n, size_t m, std::vector<std::pair<size_t, size_t>>& walk,
                    const std::function<void()>& visit) {
   const auto [i, j] = walk.back();
@@ -38,7 +38,7 @@ void for_each_walk(size_t n, size_t m, std::vector<std::pair<size_t, size_t>>& w
   }
 }
 
-TEST(PathDistance, EqualsTheBestOfAllWalks) {
+TEST(PathDistance, EqualsTheMinimumOverAllWalks) {
   std::mt19937_64 generator(11);
   for (int trial = 0; trial < 20; ++trial) {
     const Path a = random_path(generator, 1 + generator() % 6), b = random_path(generator, 1 + generator() % 6);
@@ -60,43 +60,41 @@ TEST(PathDistance, EqualsTheBestOfAllWalks) {
   }
 }
 
-TEST(PathDistance, ParallelLinesLieTheirOffsetApart) {
+TEST(PathDistance, ParallelLinesHaveTheirOffsetAsDistance) {
   Path a, b;
   for (int i = 0; i <= 50; ++i) {
     a.push_back({0.1 * i, {0.2 * i, 0.0, -10.0}});
     b.push_back({0.1 * i, {0.2 * i, 3.0, -14.0}});
   }
-  EXPECT_NEAR(largest_deviation_m(a, b), 5.0, 1e-12);
+  EXPECT_NEAR(max_deviation_m(a, b), 5.0, 1e-12);
   EXPECT_NEAR(discrete_frechet_m(a, b), 5.0, 1e-12);
   EXPECT_NEAR(mean_warped_distance_m(a, b), 5.0, 1e-12);
 }
 
-/// The same line flown at half the speed: late by up to its half length, but never off it.
-TEST(PathDistance, LatenessCountsForTheBandAlone) {
+/// The same line at half the speed: delayed by up to half its length, but always on it.
+TEST(PathDistance, DelayCountsForTheBandOnly) {
   Path fast, slow;
   for (int i = 0; i <= 100; ++i) fast.push_back({0.1 * i, {0.2 * i, 0.0, -10.0}});
   for (int i = 0; i <= 200; ++i) slow.push_back({0.1 * i, {0.1 * i, 0.0, -10.0}});
-  EXPECT_NEAR(largest_deviation_m(slow, fast), 10.0, 1e-9);
+  EXPECT_NEAR(max_deviation_m(slow, fast), 10.0, 1e-9);
   EXPECT_NEAR(discrete_frechet_m(slow, fast), 0.1, 1e-9);
   EXPECT_LT(mean_warped_distance_m(slow, fast), 0.05);
 }
 
-TEST(PathDistance, BandRunsStraightBetweenTheReferencesPoints) {
+TEST(PathDistance, BandIsLinearBetweenTheReferencesPoints) {
   const Path reference{{0.0, {0.0, 0.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}};
-  EXPECT_NEAR(
-      largest_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {7.0, {14.0, 1.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}}, reference), 1.0,
-      1e-12);
-  EXPECT_NEAR(
-      largest_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}, {12.0, {23.0, 0.0, 0.0}}}, reference), 3.0,
-      1e-12);
+  EXPECT_NEAR(max_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {7.0, {14.0, 1.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}}, reference),
+              1.0, 1e-12);
+  EXPECT_NEAR(max_deviation_m({{0.0, {0.0, 0.0, 0.0}}, {10.0, {20.0, 0.0, 0.0}}, {12.0, {23.0, 0.0, 0.0}}}, reference),
+              3.0, 1e-12);
 }
 
-TEST(PathDistance, BandComparesAnEarlyEndWithAllThatTheReferenceStillDoes) {
+TEST(PathDistance, BandComparesAnEarlyEndWithTheRestOfTheReference) {
   Path reference, flown;
   for (int i = 0; i <= 100; ++i) reference.push_back({0.1 * i, {0.2 * i, 0.0, -10.0}});
   flown.assign(reference.begin(), reference.begin() + 61);
-  EXPECT_NEAR(largest_deviation_m(flown, reference), 8.0, 1e-12);
-  EXPECT_NEAR(largest_deviation_m(reference, flown), 8.0, 1e-12);
+  EXPECT_NEAR(max_deviation_m(flown, reference), 8.0, 1e-12);
+  EXPECT_NEAR(max_deviation_m(reference, flown), 8.0, 1e-12);
 }
 
 TEST(Thinned, KeepsFirstLastAndTheStep) {

@@ -1,4 +1,4 @@
-#include "sim/verdict/reaction.h"
+#include "sim/verdict/field_metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kTouchM = 1e-3;  // what counts as touching
+constexpr double kTouchM = 1e-3;  // contact distance
 constexpr double kRadiusM = 0.5, kHorizonS = 20.0;
 
 const std::vector<dynamics::HullPart> kDisc = {
@@ -25,8 +25,8 @@ scenes::Solid pole(double north_m, double east_m) {
 
 Eigen::Isometry3d at(const Eigen::Vector3d& p_W) { return Eigen::Isometry3d(Eigen::Translation3d(p_W)); }
 
-// Two upright circles, of disc and pole, one of which moves: a quadratic equation.
-TEST(TimeToCollision, OfADiscPastAPoleIsTheCirclesMeeting) {
+// Circles of disc and pole, one of which moves: a quadratic equation.
+TEST(TimeToCollision, OfADiscAndAPoleIsTheContactOfTheirCircles) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> place_m(-8.0, 8.0), speed_mps(0.5, 3.0), aside_rad(-0.3, 0.3);
   int hits = 0;
@@ -49,13 +49,13 @@ TEST(TimeToCollision, OfADiscPastAPoleIsTheCirclesMeeting) {
     }
     ++hits;
     ASSERT_TRUE(found);
-    // A grazing touch begins sooner by a length that grows as the square root of what counts as touching.
+    // A grazing contact starts earlier by a length that grows with the square root of the contact distance.
     EXPECT_NEAR(*found, expected_s, 2.0 * kTouchM * together_m / std::sqrt(root2) + 1e-3);
   }
   EXPECT_GT(hits, 50);
 }
 
-TEST(TimeToCollision, OfAHoveringVehicleCountsTheMoversWay) {
+TEST(TimeToCollision, OfAHoveringVehicleFollowsFromTheMoversMotion) {
   scenes::Scene scene;
   scenes::Mover mover;
   mover.solids = {pole(0.0, 0.0)};
@@ -67,7 +67,7 @@ TEST(TimeToCollision, OfAHoveringVehicleCountsTheMoversWay) {
   EXPECT_NEAR(*found, (4.0 - 1.0) + (10.0 - kRadiusM - 0.1) / 2.0, 0.01);
 }
 
-/// North at 2 m/s towards a pole 30 m away, which it would touch after 14.7 s.
+/// Flight north at 2 m/s towards a pole at 30 m, with contact after 14.7 s.
 struct PoleFlight {
   static constexpr double kTouchS = (30.0 - kRadiusM - 0.1) / 2.0;
   scenes::Scene scene;
@@ -95,14 +95,14 @@ struct PoleFlight {
   std::optional<double> left_s() const { return time_to_collision_at_reaction_s(flight, scene, kDisc); }
 };
 
-TEST(TimeToCollision, AtReactionIsTheLeastOfAllReactionsNotOnlyOfThoseFromCruise) {
+TEST(TimeToCollision, AtReactionIsTheMinimumOverAllReactions) {
   PoleFlight f(13.0);
   f.decide(0.0, "avoid");
   f.decide(9.0, "cruise");
   EXPECT_FALSE(f.left_s());
   f.decide(10.0, "avoid");
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.0, 0.001);
-  f.decide(10.5, "avoid");  // goes on
+  f.decide(10.5, "avoid");  // the status is unchanged
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.0, 0.001);
   f.decide(11.0, "hover");
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 11.0, 0.001);
@@ -110,17 +110,17 @@ TEST(TimeToCollision, AtReactionIsTheLeastOfAllReactionsNotOnlyOfThoseFromCruise
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 11.0, 0.001);
 }
 
-TEST(TimeToCollision, AtReactionCountsFromWhenTheCommandTakesEffect) {
+TEST(TimeToCollision, AtReactionCountsFromTheEffectOfTheCommand) {
   PoleFlight f(13.0);
   f.flight.command_latency_s = 0.4;
   f.decide(9.0, "cruise");
   f.decide(10.0, "avoid");
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.4, 0.001);
-  f.decide(12.8, "hover");  // takes effect at 13.2 s, when the flight is over
+  f.decide(12.8, "hover");  // takes effect at 13.2 s, after the end of the flight
   EXPECT_NEAR(*f.left_s(), PoleFlight::kTouchS - 10.4, 0.001);
 }
 
-TEST(TimeToCollision, OfAFlightThatCollidesWithoutReactionIsZero) {
+TEST(TimeToCollision, IsZeroForACollisionWithoutReaction) {
   PoleFlight f(14.7, Outcome::collided);
   EXPECT_EQ(f.left_s(), std::optional(0.0));
   f.decide(9.0, "cruise");
@@ -134,9 +134,9 @@ TEST(TimeToCollision, OfAFlightThatCollidesWithoutReactionIsZero) {
   EXPECT_NEAR(*f.left_s(), 0.0, 0.01);
 }
 
-TEST(TimeToCollision, AReactionLongBeforeTheContactIsNoneToIt) {
+TEST(TimeToCollision, ReactionLongBeforeTheContactDoesNotCount) {
   PoleFlight f(14.7, Outcome::collided);
-  f.scene.solids.push_back(pole(8.0, 0.0));  // passed by the flight as if it were not there
+  f.scene.solids.push_back(pole(8.0, 0.0));  // the flight passes through it
   f.decide(0.0, "cruise");
   f.decide(1.0, "avoid");
   EXPECT_EQ(f.left_s(), std::optional(0.0));
@@ -144,9 +144,9 @@ TEST(TimeToCollision, AReactionLongBeforeTheContactIsNoneToIt) {
   EXPECT_NEAR(*f.left_s(), (8.0 - 0.6) / 2.0 - 1.0, 0.001);
 }
 
-TEST(TimeToCollision, AReactionThatForeseesNoCollisionIsNoneToTheContact) {
+TEST(TimeToCollision, ReactionWithoutAPredictedCollisionDoesNotCount) {
   PoleFlight f(14.7, Outcome::collided);
-  f.scene.solids = {pole(30.0, 20.0)};  // what was hit is the ground, say
+  f.scene.solids = {pole(30.0, 20.0)};  // the collision was with something else, such as the ground
   f.decide(9.0, "cruise");
   f.decide(10.0, "avoid");
   EXPECT_EQ(f.left_s(), std::optional(0.0));

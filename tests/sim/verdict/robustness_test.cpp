@@ -1,4 +1,4 @@
-#include "sim/verdict/robustness.h"
+#include "sim/verdict/formula_check.h"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Signals of the specification's tables under names that formulas may have: x is north, y is east.
+/// Signals of the specification's tables under the names of formula signals: x is north, y is east.
 SampledSignals sampled(double dt_s, std::vector<double> x, std::vector<double> y) {
   SampledSignals signals{.dt_s = dt_s, .samples = x.size(), .numbers = {}, .status = {}};
   signals.numbers["north"] = std::move(x);
@@ -27,7 +27,7 @@ std::vector<double> values(const std::string& formula) {
   return robustness(parse_formula(formula), sampled(1.0, {1, 2, 3, -1, 2, 1}, {-3, -2, -1, 2, 1, 0})).value;
 }
 
-/// Values that two other evaluators gave, rtamt among them.
+/// Values of two other evaluators, one of them rtamt.
 TEST(Robustness, EqualsReferenceValuesOnSixSamples) {
   EXPECT_THAT(values("always[0,2] (north>=0)"), ElementsAre(1, -1, -1, -1, 1, 1));
   EXPECT_THAT(values("eventually[1,3] (east>=0)"), ElementsAre(2, 2, 2, 1, 0, -kInf));
@@ -54,7 +54,7 @@ TEST(Robustness, EqualsReferenceValuesOnAThousandSamples) {
   EXPECT_NEAR(at_start("always eventually[0,3] (east>=0)"), 0.30901699, kPrinted);
 }
 
-/// The definition, sample by sample, as it is printed.
+/// The published definition, sample by sample.
 double by_definition(const Formula& f, const SampledSignals& s, size_t i) {
   const size_t last = s.samples - 1;
   const auto from = static_cast<size_t>(f.interval.from_s);
@@ -94,7 +94,7 @@ double by_definition(const Formula& f, const SampledSignals& s, size_t i) {
   return r;
 }
 
-/// A random formula of at most `depth` levels, over x and y, whole seconds; equal values are common.
+/// Returns a random formula of at most `depth` levels over x and y, with integer seconds; equal values are common.
 std::string random_formula(int depth, std::mt19937& random) {
   const auto draw = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
   if (depth == 0) return std::string(draw(2) ? "(north" : "(east") + ">=" + std::to_string(draw(3)) + ")";
@@ -140,7 +140,7 @@ TEST(Robustness, EqualsItsDefinitionOnTenThousandRandomSignals) {
   }
 }
 
-/// The moment is where a signal has the value: of a formula of one comparison it must be found there.
+/// The signals have the value at the decisive sample, for a formula of one comparison.
 TEST(Robustness, DecisiveSampleHasTheValue) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -156,8 +156,8 @@ TEST(Robustness, DecisiveSampleHasTheValue) {
   EXPECT_EQ(robustness(parse_formula("always (north>=0)"), twice).decisive[0], 1u);
 }
 
-/// A window of half the flight costs no more than one of two samples.
-TEST(Robustness, ComparisonsGrowWithSamplesNotWithTheWindow) {
+/// A window of half the flight costs as much as one of two samples.
+TEST(Robustness, CostIsIndependentOfTheWindow) {
   std::mt19937 random(3);
   const auto comparisons = [&](size_t samples, const std::string& formula) {
     const SampledSignals signals = sampled(1.0, random_signal(samples, random), random_signal(samples, random));
@@ -169,7 +169,7 @@ TEST(Robustness, ComparisonsGrowWithSamplesNotWithTheWindow) {
   }
 }
 
-TEST(Robustness, StatusHoldsOrNotAndUnknownNumbersFail) {
+TEST(Robustness, StatusIsInfiniteAndNanFails) {
   SampledSignals signals = sampled(1.0, {1, 1}, {0, 0});
   signals.status = {"cruise", "avoid"};
   const auto at_start = [&](const char* formula) { return robustness(parse_formula(formula), signals).value[0]; };

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
-namespace hedgehop::vision {
+namespace hedgehop {
 
 /// Returns the k-th smallest value and reorders the values. @param k  from 0, below the number of values.
 template <class T>
@@ -21,4 +22,12 @@ T upper_median(std::vector<T>& values) {
   return kth_smallest(values, values.size() / 2);
 }
 
-}  // namespace hedgehop::vision
+/// Returns the median, the mean of the two middle values if their number is even; NaN without values.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace hedgehop

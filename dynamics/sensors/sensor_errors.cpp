@@ -1,4 +1,4 @@
-#include "dynamics/sensors/sensor_noise.h"
+#include "dynamics/sensors/sensor_errors.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -28,7 +28,7 @@ double GaussMarkov::mean_with_end(double duration_s) const {
 
 double GaussMarkov::mean_with_mean(double duration_s) const {
   const double x = duration_s / correlation_time_s;
-  constexpr double kSeriesBelow = 1e-3;  // where the difference loses digits, three terms have them all
+  constexpr double kSeriesBelow = 1e-3;  // below it the difference loses digits; three terms suffice
   return x < kSeriesBelow ? 1.0 - x / 3.0 + x * x / 12.0 : 2.0 * (1.0 - mean_with_end(duration_s)) / x;
 }
 
@@ -40,6 +40,32 @@ int64_t period_ticks(std::string_view key, double rate_hz, double physics_dt_s) 
                                                      std::to_string(1.0 / physics_dt_s) + " Hz");
   }
   return std::llround(ticks);
+}
+
+SensorFailures::SensorFailures(std::vector<SensorFailure> failures) {
+  for (const SensorFailure& failure : failures) failures_.push_back({failure, RandomStream(failure.seed)});
+}
+
+std::optional<Eigen::Vector3d> SensorFailures::with_failures(Instrument instrument, int64_t t_ns,
+                                                             std::optional<Eigen::Vector3d> reading) {
+  std::optional<Eigen::Vector3d>& last = last_[static_cast<size_t>(instrument)];
+  for (auto& [failure, noise] : failures_) {
+    if (failure.instrument != instrument || t_ns < failure.from_ns || t_ns >= failure.until_ns) continue;
+    switch (failure.mode) {
+      case SensorFailure::Mode::off:
+        return std::nullopt;
+      case SensorFailure::Mode::stuck:
+        return last;
+      case SensorFailure::Mode::bias:
+        if (reading) (*reading)[failure.axis] += failure.value;
+        break;
+      case SensorFailure::Mode::noise:
+        if (reading) *reading += failure.value * normal3(noise);
+        break;
+    }
+  }
+  if (reading) last = reading;
+  return reading;
 }
 
 }  // namespace hedgehop::dynamics::sensors

@@ -1,4 +1,4 @@
-#include "dynamics/helicopter/servo.h"
+#include "dynamics/helicopter/blade_servos.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -20,7 +20,7 @@ Eigen::Vector2d derivative(const ServoConfig& config, const ServoState& state, d
   const double wn = config.natural_frequency_radps;
   double acceleration = wn * wn * (target - state.position_rad) - 2.0 * config.damping * wn * rate;
 
-  // At the greatest speed it cannot get faster.
+  // At the rate limit, the rate does not grow.
   if (rate >= config.rate_limit_radps) acceleration = std::min(acceleration, 0.0);
   if (rate <= -config.rate_limit_radps) acceleration = std::max(acceleration, 0.0);
   return {rate, acceleration};
