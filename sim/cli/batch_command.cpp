@@ -37,7 +37,7 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
                       : options.inputs.empty() ? reread_batch(out / "batch.json")
                                                : read_batch(options.inputs, seeds, options.overrides);
   if (!plan) plan = plan_of(batch);
-  if (options.least_success) batch.checks.push_back(SuccessRateCheck{*options.least_success, options.confidence});
+  if (options.min_success) batch.checks.push_back(SuccessRateCheck{*options.min_success, options.confidence});
   if (!options.no_worse_than.empty()) {
     const std::filesystem::path than = options.no_worse_than;
     batch.checks.push_back(NoWorseCheck{(std::filesystem::is_directory(than) ? than / "batch.json" : than).string(),

@@ -48,7 +48,7 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command->add_flag("--resume", options->resume, "reuse results in --out with the same scenario, build and input files")
       ->excludes(failed_only);
   command
-      ->add_option("--min-success", options->least_success,
+      ->add_option("--min-success", options->min_success,
                    "required success rate over the seeds; the lower bound of its interval must reach it")
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0))

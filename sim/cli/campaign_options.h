@@ -5,7 +5,7 @@
 
 namespace hedgehop::sim::cli {
 
-/// Declares the commands that fly many scenarios; the one that is chosen ends up in `chosen`.
+/// Declares the commands that fly many scenarios. Parsing stores the call of the selected command in `chosen`.
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen);
 
 }  // namespace hedgehop::sim::cli

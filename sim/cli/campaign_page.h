@@ -7,11 +7,11 @@
 
 namespace hedgehop::sim::cli {
 
-/// Prints why each flight that could not be flown failed, and the command to fly it again.
+/// Prints the cause of each flight without a result, and the command that repeats it.
 void print_failed(const std::vector<FlightRecord>& records);
 
-/// Writes report.html of a batch or sweep that has just been flown, and prints its name. A page that cannot be made is
-/// told on standard error: the tables stand without it.
+/// Writes report.html of a batch or sweep and prints its path. If the page cannot be written, prints the error to
+/// standard error; the tables are not affected.
 void write_campaign_page(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim::cli

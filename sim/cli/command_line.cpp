@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <functional>
@@ -16,10 +15,10 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/features.h"
 #include "sim/cli/manual.h"
+#include "sim/cli/misspelling.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
 #include "sim/cli/override_option.h"
-#include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/drawing.h"
@@ -213,33 +212,6 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
       return 0;
     };
   });
-}
-
-/// Returns the message for a first word that is not a command; empty if it is a command or an option.
-std::string unknown_command(const CLI::App& app, std::string_view word) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
-  if (word == "estimate") return "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`";
-  return fmt::format("unknown command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
-}
-
-/// Returns the message for the first unknown option of the command; empty if there is none.
-std::string unknown_option(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands()) {
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->get_group().empty()) continue;  // hidden
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-    }
-  }
-  for (const std::string& word : app.remaining(/*recurse=*/true)) {
-    if (word.starts_with("-") && word.size() > 1) {
-      return fmt::format("unknown option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
-    }
-  }
-  return {};
 }
 
 int parse_and_run(int argc, char** argv) {

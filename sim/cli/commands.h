@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-/// The command line's commands. Results go to standard output, progress and warnings to standard error. Each returns
-/// the process's exit status: 0 all checks hold, 1 a check fails, 4 undecided. What goes wrong is thrown; main() turns
-/// InputError into status 2 and everything else into 3.
+/// The commands of the command line. Results go to standard output, progress and warnings to standard error. Each
+/// command returns the exit status of the process: 0 all checks hold, 1 a check fails, 4 undecided. Errors are thrown;
+/// run_command_line() maps InputError to status 2 and other exceptions to 3.
 namespace hedgehop::sim::cli {
 
-/// A scenario file and what overrides it.
+/// A scenario file and its overrides.
 struct ScenarioOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< "a.b=value"
@@ -25,7 +25,7 @@ struct RunOptions {
   bool no_video = false;
   bool json = false;
   bool no_report = false;
-  int64_t worker_of = 0;  ///< process to die with, showing no progress; 0 for a run by a person
+  int64_t worker_of = 0;  ///< parent process, whose end ends this run; no progress is shown; 0 for a run by a user
 };
 int run(const RunOptions& options);
 
@@ -44,10 +44,10 @@ struct CalibrationOptions {
   std::string format = "opencv";  ///< or "kalibr"
   std::filesystem::path out;      ///< empty: standard output
 };
-/// Writes the rig's cameras for other programs.
+/// Writes the camera calibration of the rig for other programs.
 int calibration(const CalibrationOptions& options);
 
-/// For people: the vehicle files with mass, width and what they say of themselves.
+/// Returns a list of the vehicle files with mass, width and description.
 std::string vehicle_files_text();
 
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
@@ -57,7 +57,7 @@ struct TrimOptions {
   std::filesystem::path vehicle;
   std::vector<double> speeds_mps{0.0};
   bool json = false, csv = false;
-  std::filesystem::path plot;  ///< page of plots to write as well; empty: none
+  std::filesystem::path plot;  ///< page of plots to write as well; empty: no file
 };
 /// Prints the trim of level flight at each speed, and plots it.
 int trim(const TrimOptions& options);
@@ -77,26 +77,26 @@ int schema();
 
 struct BatchOptions {
   std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, folders
-  std::string seeds;                          ///< such as 1:10; empty: those of the inputs
+  std::string seeds;                          ///< such as 1:10; empty: the seeds of the inputs
   std::vector<std::string> overrides;         ///< "a.b=value", override every scenario
   size_t jobs = 1;                            ///< flights at a time, >= 1
-  double limit_s = 0.0;                       ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;            ///< results of other builds stand, too
+  double limit_s = 0.0;                       ///< maximum wall time of a flight; 0 for no limit
+  bool reuse_other_builds = false;            ///< whether to reuse results of other builds
   std::filesystem::path out;                  ///< empty: out/<name of the one input>, else out/batch
-  std::filesystem::path junit;                ///< empty: none is written
+  std::filesystem::path junit;                ///< empty: no file is written
   bool failed_only = false, resume = false, json = false;
-  std::optional<double> least_success, margin;  ///< statistical checks, as in a campaign's file
+  std::optional<double> min_success, margin;  ///< statistical checks, as in a campaign's file
   std::filesystem::path no_worse_than;
   double confidence = 0.95;
-  std::string until;                  ///< stopping rule, such as "collision < 0.01"; empty: none
+  std::string until;                  ///< stopping rule, such as "collision < 0.01"; empty: no rule
   std::optional<double> until_width;  ///< stopping rule: the width of the interval of the rate of `of`
   std::string of;                     ///< event
-  std::filesystem::path plan;         ///< registered plan to fly in place of inputs; empty: none
+  std::filesystem::path plan;         ///< registered plan, flown instead of inputs; empty: no plan
   std::filesystem::path program;      ///< of the workers, absolute; empty: this one
 };
-/// Flies many scenarios, each flight in a process of its own. Interrupted, it writes what there is and returns 128 and
-/// the signal's number. A bad file fails alone: the rest is flown, then the status is 2. A stopping rule that the last
-/// seed leaves undecided: 4.
+/// Flies many scenarios, each flight in its own process. If interrupted, it writes the available results and returns
+/// 128 plus the number of the signal. An invalid file does not stop the others; the status is then 2. If the last seed
+/// leaves a stopping rule undecided, the status is 4.
 int batch(const BatchOptions& options);
 
 struct CompareOptions {
@@ -104,85 +104,85 @@ struct CompareOptions {
   std::string seeds;                      ///< such as 1:100
   std::vector<std::string> overrides;     ///< "a.b=value", override both
   std::string until;                      ///< claim, such as "collision: better"
-  std::optional<double> range_m;          ///< clearance that is enough
+  std::optional<double> range_m;          ///< maximum clearance that counts, m
   double confidence = 0.95;
   size_t jobs = 1;                  ///< flights at a time, >= 1
-  double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;  ///< results of other builds stand, too
+  double limit_s = 0.0;             ///< maximum wall time of a flight; 0 for no limit
+  bool reuse_other_builds = false;  ///< whether to reuse results of other builds
   std::filesystem::path out;        ///< empty: out/compare
-  std::filesystem::path junit;      ///< empty: none is written
+  std::filesystem::path junit;      ///< empty: no file is written
   bool resume = false, json = false;
   std::filesystem::path program;  ///< of the workers, absolute; empty: this one
 };
-/// Flies two scenarios on the same seeds, pair by pair, until the claim about the candidate is decided. Returns as
-/// batch() does under a stopping rule.
+/// Flies two scenarios on the same seeds, pair by pair, until the claim about the candidate is decided. Returns the
+/// same statuses as batch() with a stopping rule.
 int compare(const CompareOptions& options);
 
 struct SweepOptions {
   std::filesystem::path file;
   size_t jobs = 1;                                ///< flights at a time, >= 1
-  double limit_s = 0.0;                           ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;                ///< results of other builds stand, too
+  double limit_s = 0.0;                           ///< maximum wall time of a flight; 0 for no limit
+  bool reuse_other_builds = false;                ///< whether to reuse results of other builds
   std::filesystem::path out;                      ///< empty: out/<the file's name>
-  std::filesystem::path junit;                    ///< empty: none is written
+  std::filesystem::path junit;                    ///< empty: no file is written
   std::string shard;                              ///< such as 2/8; empty: all
-  bool merge = false;                             ///< fly nothing, write the tables of what is there
-  std::vector<std::filesystem::path> merge_from;  ///< further folders to look for results in
-  bool missing = false;                           ///< only print how many flights have no result
+  bool merge = false;                             ///< only write the tables of the available results
+  std::vector<std::filesystem::path> merge_from;  ///< further folders with results
+  bool missing = false;                           ///< only print the number of flights without a result
   std::string on = "local";                       ///< or "slurm"
   size_t tasks = 8;                               ///< of the job array
   std::vector<std::string> slurm_options;         ///< for every sbatch
   bool dry_run = false;                           ///< only print the batch scripts
   std::filesystem::path program;                  ///< of the workers, absolute; empty: this one
 };
-/// Flies a sweep, or what is left of it: results of the very same scenario and build are reused.
+/// Flies the remaining flights of a sweep. Results of the same scenario and build are reused.
 int sweep(const SweepOptions& options);
 
 struct FalsifyOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< "a.b=value", of the search file
   size_t jobs = 1;                     ///< flights at a time, >= 1
-  double limit_s = 0.0;                ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;     ///< results of other builds stand, too
+  double limit_s = 0.0;                ///< maximum wall time of a flight; 0 for no limit
+  bool reuse_other_builds = false;     ///< whether to reuse results of other builds
   std::filesystem::path out;           ///< empty: out/<the file's name>
   std::filesystem::path program;       ///< of the workers, absolute; empty: this one
 };
-/// Searches for flights that fail, or goes on with a search; flies each failure again, shrinks it and keeps it as a
-/// scenario. @return 0 when none was found, 1 when some were, 3 when one did not repeat.
+/// Starts or resumes a search for failing flights. Flies each failure again, shrinks it and stores it as a scenario.
+/// @return 0 without a failure, 1 with failures, 3 if a failure is not repeatable.
 int falsify(const FalsifyOptions& options);
 
 struct BranchOptions {
   std::filesystem::path source;        ///< folder of a run, or a scenario
-  double at_s = 0.0;                   ///< when the settings change
-  std::vector<std::string> overrides;  ///< "a.b=value", from then on
+  double at_s = 0.0;                   ///< time at which the settings change
+  std::vector<std::string> overrides;  ///< "a.b=value", from that time on
   std::filesystem::path out;           ///< empty: out/<the source's name>-branches
 };
-/// Flies a scenario with its settings, and once more with others from a moment on; writes both beside each other.
+/// Flies a scenario with its settings, and again with other settings from a given time on. Compares both flights.
 int branch(const BranchOptions& options);
 
 struct ReproduceOptions {
-  std::vector<std::string> papers;  ///< keys or files; empty: all there are
+  std::vector<std::string> papers;  ///< keys or files; empty: all papers
   bool quick = false;               ///< few seeds
   size_t jobs = 1;                  ///< flights at a time, >= 1
-  double limit_s = 0.0;             ///< longest wall time of a flight, 0 for none
-  bool reuse_other_builds = false;  ///< results of other builds stand, too
+  double limit_s = 0.0;             ///< maximum wall time of a flight; 0 for no limit
+  bool reuse_other_builds = false;  ///< whether to reuse results of other builds
   std::filesystem::path out;        ///< empty: out/reproduce
-  std::filesystem::path write;      ///< page of results in Markdown, such as docs/results.md; empty: none
+  std::filesystem::path write;      ///< page of results in Markdown, such as docs/results.md; empty: no file
   std::filesystem::path program;    ///< of the workers, absolute; empty: this one
 };
-/// Flies papers' experiments, or what is left of them, and writes each paper's figures beside ours.
+/// Flies the remaining flights of the papers' experiments and compares each published figure with the measured one.
 int reproduce(const ReproduceOptions& options);
 
 struct BlessOptions {
   std::filesystem::path folder;  ///< of the run
   std::string reason;            ///< why this path is the reference, one line
-  bool force = false;            ///< also a flight that failed, and over another reference
-  bool dry_run = false;          ///< only say what would be written
+  bool force = false;            ///< accept a failed flight and overwrite an existing reference
+  bool dry_run = false;          ///< only print the file that would be written
 };
-/// Writes the path of a run as the reference of its scenario's `path_tolerance`, beside the scenario.
+/// Writes the path of a run, next to its scenario, as the reference of the scenario's `path_tolerance`.
 int bless(const BlessOptions& options);
 
-/// The executable that runs now, absolute. Throws std::runtime_error.
+/// Returns the path of the running executable, absolute. Throws std::runtime_error.
 std::filesystem::path own_program();
 
 struct ExportOptions {
@@ -190,14 +190,14 @@ struct ExportOptions {
   std::string format;                ///< "euroc", "tum" or "kitti"
   std::filesystem::path out;         ///< empty: <folder>/<format>
   std::vector<std::string> cameras;  ///< roles; empty: all that take images
-  bool truth = false;                ///< also what each pixel truly shows
+  bool truth = false;                ///< also the ground truth of each pixel
 };
-/// Re-simulates a run and writes its sensors' readings for other programs.
+/// Re-simulates a run and writes its sensor readings for other programs.
 int export_run(const ExportOptions& options);
 
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
-  std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: none
+  std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: no comparison
   bool replay = false;            ///< of a run: also write replay.html
   size_t film_strips = 0;         ///< of a batch or sweep: worst flights to re-simulate for a film strip
 };

@@ -6,8 +6,8 @@
 
 namespace hedgehop::sim::cli {
 
-/// Files that are written at the end of a campaign: one that fails (a full disk) keeps no other from being written,
-/// nor results from being printed.
+/// Writes the files at the end of a campaign. If one write fails (a full disk), the others are still written and the
+/// results are still printed.
 class EveryWrite {
  public:
   template <class Write>
@@ -19,7 +19,7 @@ class EveryWrite {
     }
   }
   bool well() const { return fault_.empty(); }
-  /// Throws std::runtime_error with the first fault, if there was one.
+  /// Throws std::runtime_error with the first error, if there was one.
   void raise() const {
     if (!well()) throw std::runtime_error(fault_);
   }

@@ -22,7 +22,7 @@ struct BatchRun {
   bool json = false;
 };
 
-/// Flies it, writes batch.json, batch.csv and the JUnit file, prints what was found.
+/// Flies it, writes batch.json, batch.csv and the JUnit file, prints the results.
 /// @return the exit status: 0 holds, 1 fails, 2 a file is bad, 4 undecided, 128 and the signal's number when
 /// interrupted.
 int fly_batch(BatchRun run);

@@ -5,7 +5,7 @@
 
 namespace hedgehop::sim::cli {
 
-/// The scenario of a command line, its overrides and seed applied, and its parts. Throws InputError.
+/// Returns the scenario of a command line with overrides and seed applied, and its parts. Throws InputError.
 LoadedScenario load(const ScenarioOptions& options);
 
 }  // namespace hedgehop::sim::cli

@@ -12,15 +12,15 @@
 
 namespace {
 
-/// A file opened while one of the standard streams is closed would get its number, and its text.
+/// Opens closed standard streams; otherwise the next opened file would get the descriptor and the text of the stream.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest number that is free
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // open() returns the lowest free descriptor
   }
 }
 
-/// Writes a part of the results. Whoever prints them need not care that a pipe's reader has seen enough, nor that a
-/// disk is full: what cannot be written is dropped. @param error  errno of the first fault, an int.
+/// Writes a part of the results to standard output. After a write error (a closed pipe, a full disk) it drops the text,
+/// so that callers need not handle errors. @param error  int that stores the errno of the first error.
 ssize_t write_results(void* error, const char* text, size_t bytes) {
   int& first_fault = *static_cast<int*>(error);
   for (size_t written = 0; first_fault == 0 && written < bytes;) {
@@ -38,8 +38,8 @@ ssize_t write_results(void* error, const char* text, size_t bytes) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has seen enough ends no flight
-  std::signal(SIGXFSZ, SIG_IGN);  // a file past its limit (ulimit -f) is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not end a flight
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit (ulimit -f) is a write error
   int error = 0;
   if (FILE* const results = ::fopencookie(&error, "w", {nullptr, write_results, nullptr, nullptr})) stdout = results;
   const int status = hedgehop::sim::cli::run_command_line(argc, argv);

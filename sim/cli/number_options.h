@@ -2,17 +2,17 @@
 
 #include <CLI/CLI.hpp>
 
-/// Numbers that a person types as options, read as a scenario's are: decimal, finite, and nothing wraps. To be attached
-/// with transform() before any range is checked.
+/// Numbers of options, read like those of a scenario: decimal, finite, without integer wrap-around. Attach these
+/// validators with transform() before any range check.
 namespace hedgehop::sim::cli {
 
-/// 0 to 2^64 - 1; "010" is ten.
+/// Accepts whole numbers from 0 to 2^64 - 1; "010" is ten.
 CLI::Validator whole_number();
 
-/// Any number that is finite.
+/// Accepts any finite number.
 CLI::Validator number();
 
-/// Of a number: 0 and more; more than 0.
+/// Require a number >= 0 (not_negative) or > 0 (positive).
 CLI::Validator not_negative();
 CLI::Validator positive();
 

@@ -6,7 +6,7 @@
 
 namespace hedgehop::sim::cli {
 
-/// Adds --set KEY.PATH=VALUE, which takes one value each time, so that a scenario may follow it.
+/// Adds --set KEY.PATH=VALUE. Each --set takes exactly one value, so a scenario file may follow it.
 inline void add_overrides(CLI::App& command, std::vector<std::string>& overrides, const std::string& meaning) {
   command.add_option("--set", overrides, meaning)->type_name("KEY.PATH=VALUE")->take_all()->allow_extra_args(false);
 }

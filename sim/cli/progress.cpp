@@ -12,13 +12,13 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// Progress that cannot be written (a full disk) is no reason to stop what goes on.
+/// Writes to standard error and ignores write errors (a full disk), which must not stop the command.
 void write(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
 }
 
-/// Letters that a line of the terminal holds without a break; as many as one likes where it does not say.
+/// Returns the number of characters that fit on a line of the terminal; unlimited if the width is unknown.
 size_t columns() {
   winsize size{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return std::string::npos;

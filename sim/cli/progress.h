@@ -5,23 +5,24 @@
 
 namespace hedgehop::sim::cli {
 
-/// A line on standard error that is redrawn where it is a terminal; elsewhere lines follow each other.
+/// A line on standard error. It is redrawn on a terminal; otherwise each update is a new line.
 class StatusLine {
  public:
   StatusLine();
   bool terminal() const { return terminal_; }
-  /// Redraws the line, as much of it as the terminal is wide, or, where there is no terminal, adds it.
+  /// Redraws the line, cut to the width of the terminal. Without a terminal, adds it as a new line.
   void show(const std::string& line) const;
-  /// Adds a line that stays.
+  /// Adds a permanent line.
   void keep(const std::string& line) const;
-  /// Clears the terminal's line.
+  /// Clears the line on the terminal.
   void close() const;
 
  private:
   bool terminal_;
 };
 
-/// Progress of one flight, with the time left: redrawn on a terminal, else a plain line every tenth of its duration.
+/// Progress of one flight with the remaining time. On a terminal the line is redrawn; otherwise a line is printed after
+/// every tenth of the duration.
 class FlightProgress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -38,14 +39,14 @@ class FlightProgress {
   int tenths_shown_ = 0;
 };
 
-/// Progress of many flights, with the time left: redrawn on a terminal, where only failures stay; else a plain line for
-/// each flight, or for each hundredth of very many.
+/// Progress of many flights with the remaining time. On a terminal the line is redrawn and only failures remain
+/// visible; otherwise a line is printed for each flight, or for each hundredth part if there are very many.
 class CampaignProgress {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit CampaignProgress(size_t flights);
-  /// A flight has ended. @param words  how, one line. @param reused  an earlier result stands, which took no time.
+  /// Adds an ended flight. @param words  its outcome, one line. @param reused  whether an earlier result was reused.
   void add(const std::string& name, const std::string& words, bool passed, bool reused);
   void close() const { line_.close(); }
 
@@ -57,7 +58,7 @@ class CampaignProgress {
   size_t flights_, ended_ = 0, flown_ = 0, failed_ = 0;
 };
 
-/// "40 s", "12 min", "3 h 5 min".
+/// Returns a duration as text: "40 s", "12 min", "3 h 5 min".
 std::string duration_words(double seconds);
 
 }  // namespace hedgehop::sim::cli

@@ -76,11 +76,30 @@ std::string ErrorList::path_text(std::string_view path) const {
   return path.empty() ? "the " + kind_ : fmt::format("'{}'", path);
 }
 
+namespace {
+
+/// Returns the path with '*' in place of each index of a list item: "rows.3" gives "rows.*".
+std::string without_indices(std::string_view path) {
+  std::string pattern;
+  while (!path.empty()) {
+    const size_t dot = path.find('.');
+    const std::string_view part = path.substr(0, dot);
+    const bool is_index = !part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos;
+    pattern = join_path(pattern, is_index ? "*" : part);
+    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+  }
+  return pattern;
+}
+
+}  // namespace
+
 std::string ErrorList::advice(std::string_view path, std::string_view key, std::string_view value,
                               const std::vector<std::string_view>& allowed) const {
+  const std::string pattern = without_indices(path);
   for (const FormerKey& row : former_keys_) {
     const bool holds_here = row.beside.empty() || std::ranges::find(allowed, row.beside) != allowed.end();
-    if (row.path == path && row.key == key && row.value == value && holds_here) return fmt::format("; {}", row.advice);
+    if (row.path == pattern && row.key == key && row.value == value && holds_here)
+      return fmt::format("; {}", row.advice);
   }
   return suggestion(value.empty() ? key : value, allowed);
 }

@@ -54,7 +54,7 @@ class InputError : public std::runtime_error {
 
 /// A key, or a value of a key, that an earlier version accepted.
 struct FormerKey {
-  std::string_view path, key;    ///< key of the map at `path`
+  std::string_view path, key;    ///< key of the map at `path`, which has '*' for the index of a list item: "rows.*"
   std::string_view value = "";   ///< the former value; empty if the key itself changed
   std::string_view beside = "";  ///< the row holds for maps that allow this key; empty for all
   std::string_view advice;       ///< "its name is now 'renderer'"

@@ -122,7 +122,8 @@ struct StageTime {
   double median_ms = 0.0, p95_ms = 0.0;
 };
 
-/// The libraries on which the bits of a flight depend, besides the build. Equal builds and libraries fly equal flights.
+/// The libraries on which the bits of a flight depend, in addition to the build. Equal builds and libraries fly equal
+/// flights.
 struct Libraries {
   std::string images;     ///< image processing: "OpenCV 4.6.0"
   std::string functions;  ///< mathematical functions: "SLEEF 3.5.1"

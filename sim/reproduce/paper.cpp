@@ -131,6 +131,16 @@ std::string sensor_override(const Paper& paper, const std::string& scenario, con
   return "rig.sensor.use=" + file.lexically_relative(folder).string();
 }
 
+constexpr FormerKey kFormerPaperKeys[] = {
+    {.path = "flights.*", .key = "printed", .advice = "its name is now 'published'"},
+    {.path = "flights.*", .key = "beside", .advice = "its name is now 'sensor_seeds'"},
+    {.path = "rows.*", .key = "what", .advice = "its name is now 'claim'"},
+    {.path = "rows.*", .key = "statistic", .value = "least", .advice = "its name is now 'min'"},
+    {.path = "rows.*", .key = "statistic", .value = "greatest", .advice = "its name is now 'max'"},
+    {.path = "charts.*.series.*", .key = "statistic", .value = "least", .advice = "its name is now 'min'"},
+    {.path = "charts.*.series.*", .key = "statistic", .value = "greatest", .advice = "its name is now 'max'"},
+};
+
 }  // namespace
 
 bool counts(FlightFigure::Statistic statistic) {
@@ -159,7 +169,7 @@ std::vector<FlightGroup> flight_groups(const Paper& paper) {
 }
 
 Paper read_paper(const std::filesystem::path& file) {
-  ErrorList faults("paper");
+  ErrorList faults("paper", kFormerPaperKeys);
   const Node root = load_tree(file, faults);
   Paper paper{.key = file.stem().string(), .folder = file.parent_path()};
   if (root.kind == Node::Kind::map) read_struct(root, "", "", paper, faults);

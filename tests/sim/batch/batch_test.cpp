@@ -61,18 +61,18 @@ TEST(Batch, WorkerThatCrashesOrIsKilledFailsItsOwnFlightOnly) {
   EXPECT_THAT(end.out, HasSubstr("FAIL  tiny/seed1: killed by SIGSEGV"));
 }
 
-TEST(Batch, WorkerThatHangsIsKilledAtItsLimitWithAllItStarted) {
+TEST(Batch, WorkerThatHangsIsKilledAtItsLimitWithItsChildren) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("sleep 1000 & echo $! > pid.txt; wait");
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --limit 0.5 --out out --program " + worker).status, 1);
   EXPECT_EQ(folder.json("out/batch.json").at("flights").at(0).at("cause"),
             "killed: over its limit of 0.5 s of wall time");
-  // A zombie waits for init to take it: what counts is that it no longer runs.
+  // A zombie is waiting for init, so it is acceptable; the process must no longer run.
   const std::string state = folder.shell("cut -d' ' -f3 /proc/$(cat pid.txt)/stat").out;
   EXPECT_TRUE(state.empty() || state == "Z\n") << state;
 }
 
-TEST(Batch, FailedOnlyFliesWhatDidNotPassAndKeepsTheRest) {
+TEST(Batch, FailedOnlyFliesFailedFlightsAndKeepsTheOthers) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("echo $seed >> flown.txt; [ $seed = 2 ] && exit 3; fly \"$@\"");
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:3 -j 1 --out out --program " + worker).status, 1);
@@ -81,7 +81,7 @@ TEST(Batch, FailedOnlyFliesWhatDidNotPassAndKeepsTheRest) {
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n2\n");
 }
 
-TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
+TEST(Batch, FlightWithoutChecksDoesNotPass) {
   const CampaignFolder folder;
   std::string scenario = folder.read("tiny.yaml");
   scenario.replace(scenario.find("checks:"), std::string::npos, "may_collide: true\nchecks: []\n");
@@ -94,7 +94,7 @@ TEST(Batch, FlightOfWhichNothingIsAskedDoesNotPass) {
   for (const std::string& text : {end.out + end.err, folder.read("j.xml")}) EXPECT_THAT(text, Not(HasSubstr("pass ")));
 }
 
-TEST(Batch, JUnitSaysWhatWasHit) {
+TEST(Batch, JUnitNamesTheObstacleOfACollision) {
   const CampaignFolder folder;
   folder.write("wall.yaml", "use: " HEDGEHOP_SOURCE_DIR
                             "/configs/worlds/wall.yaml\nname: wall\nduration: 15\n"
@@ -115,7 +115,7 @@ TEST(Batch, EveryFileNamesTheBuild) {
   EXPECT_THAT(folder.read("out/batch.csv"), AllOf(HasSubstr(",truth_used,"), HasSubstr("," + build + ",")));
 }
 
-TEST(Batch, BadFileAmongGoodOnesIsToldWithItsPlaceAndTheRestIsFlown) {
+TEST(Batch, BadFileIsReportedWithItsPlaceAndTheOthersAreFlown) {
   const CampaignFolder folder;
   folder.write("typo.yaml", "use: tiny.yaml\nname: typo\nduratoin: 3\n");
   const CommandEnd end = folder.hedgehop("batch typo.yaml tiny.yaml --out out --junit j.xml");
@@ -127,17 +127,17 @@ TEST(Batch, BadFileAmongGoodOnesIsToldWithItsPlaceAndTheRestIsFlown) {
   EXPECT_THAT(junit_cases(folder, "j.xml"), HasSubstr("typo/bad/flight error typo.yaml:3:1: unknown key"));
 }
 
-TEST(Batch, NothingGoodWritesNothing) {
+TEST(Batch, WithoutAValidInputNoFileIsWritten) {
   const CampaignFolder folder;
-  EXPECT_EQ(folder.hedgehop("batch nowhere.yaml --out out --junit j.xml").status, 2);
+  EXPECT_EQ(folder.hedgehop("batch missing.yaml --out out --junit j.xml").status, 2);
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --set avoidance.modle=x --out out").status, 2);
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3:1 --out out").status, 2);
-  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --no-worse-than nowhere --out out").status, 2);
+  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --no-worse-than missing --out out").status, 2);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "j.xml"));
 }
 
-/// No file may grow past the limit: writing ends as on a full disk, with an error in the middle of the file.
+/// With a limit on file sizes, a write fails in the middle of the file, like on a full disk.
 TEST(Batch, FullDiskFailsTheFlightWithTheFilesName) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("trap '' XFSZ; ulimit -f 2; fly \"$@\"");
@@ -211,7 +211,7 @@ TEST(Batch, SameFlightsWithAnyNumberOfWorkers) {
   EXPECT_EQ(hashes.size(), 1u);
 }
 
-TEST(Batch, StatisticalChecksDecideInPlaceOfSingleFlights) {
+TEST(Batch, StatisticalChecksDecideInsteadOfSingleFlights) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("[ $seed = 2 ] && exit 3; fly \"$@\"");
   const std::string common = "batch tiny.yaml --seeds 1:6 --junit j.xml --program " + worker;
@@ -223,7 +223,7 @@ TEST(Batch, StatisticalChecksDecideInPlaceOfSingleFlights) {
   EXPECT_EQ(folder.hedgehop(common + " --out d --no-worse-than a").status, 1);  // 0 of 6 after 5 of 6: p = 0.008
 }
 
-TEST(Batch, RefusesARateThatItsFlightsCannotShow) {
+TEST(Batch, RejectsARateThatItsFlightsCannotShow) {
   const CampaignFolder folder;
   // All of n passing: the Wilson interval begins at n / (n + z^2), z = 1.96, which is 0.7 from n = 8.96 on.
   const CommandEnd end = folder.hedgehop("batch tiny.yaml --seeds 1:8 --out out --min-success 0.7");
@@ -251,7 +251,7 @@ TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
               HasSubstr("campaign.yaml:2:27: unknown key 'seds' in 'flights.0'; did you mean 'seeds'?"));
 }
 
-TEST(Batch, CampaignDoesNotJudgeBySeedsThatParametersWereChosenOn) {
+TEST(Batch, CampaignRejectsTuningSeedsForEvaluation) {
   const CampaignFolder folder;
   folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, seeds: 1:2}\n");
   const CommandEnd unsaid = folder.hedgehop("batch campaign.yaml --out out");
@@ -263,7 +263,7 @@ TEST(Batch, CampaignDoesNotJudgeBySeedsThatParametersWereChosenOn) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
-TEST(Batch, EntriesThatDifferBeyondTheFolderNamesLengthKeepTheirFoldersApart) {
+TEST(Batch, EntriesThatDifferAfterTheMaximumNameLengthHaveDifferentFolders) {
   const CampaignFolder folder;
   const std::string zeros(150, '0');
   const std::string entry = "  - {scenario: tiny.yaml, seeds: 1, set: [avoidance.speed=0.5" + zeros;

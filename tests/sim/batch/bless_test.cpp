@@ -24,7 +24,7 @@ TEST(Bless, ReferenceHoldsItsOwnFlightAndRefusesAnother) {
   }
 }
 
-TEST(Bless, ReplacesAReferenceOnlyByForceAndSaysFirstWhatItWouldWrite) {
+TEST(Bless, ReplacesAReferenceOnlyWithForceAndDryRunNamesTheFile) {
   const CampaignFolder folder;
   ASSERT_EQ(folder.hedgehop("run tiny.yaml --seed 3 --no-report --no-video --out first").status, 0);
   const CommandEnd dry = folder.hedgehop("bless first --reason one --dry-run");
@@ -41,14 +41,14 @@ TEST(Bless, ReplacesAReferenceOnlyByForceAndSaysFirstWhatItWouldWrite) {
   EXPECT_THAT(folder.read("tiny.reference.csv"), HasSubstr("# reason: two\n"));
 }
 
-TEST(Bless, RefusesAFlightThatFailed) {
+TEST(Bless, RejectsAFailedFlight) {
   const CampaignFolder folder;
-  folder.write("late.yaml", "use: tiny.yaml\nname: late\nchecks: [{check: max_speed, at_most: 0.01}]\n");
-  ASSERT_EQ(folder.hedgehop("run late.yaml --no-report --no-video --out late").status, 1);
-  const CommandEnd end = folder.hedgehop("bless late --reason 'near enough'");
+  folder.write("slow.yaml", "use: tiny.yaml\nname: slow\nchecks: [{check: max_speed, at_most: 0.01}]\n");
+  ASSERT_EQ(folder.hedgehop("run slow.yaml --no-report --no-video --out slow").status, 1);
+  const CommandEnd end = folder.hedgehop("bless slow --reason 'near enough'");
   EXPECT_EQ(end.status, 2);
   EXPECT_THAT(end.err, HasSubstr("the flight failed (max_speed)"));
-  EXPECT_EQ(folder.hedgehop("bless late --reason 'near enough' --force").status, 0);
+  EXPECT_EQ(folder.hedgehop("bless slow --reason 'near enough' --force").status, 0);
 }
 
 TEST(Bless, MissingReferenceIsRefusedBeforeTheFlight) {

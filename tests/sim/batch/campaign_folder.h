@@ -15,13 +15,13 @@
 
 namespace hedgehop::sim {
 
-/// What a command printed and how it ended.
+/// The output and exit status of a command.
 struct CommandEnd {
   int status = 0;  ///< exit status; 128 and the signal's number when a signal ended it
   std::string out, err;
 };
 
-/// A table without the columns that differ from run to run, which are the last.
+/// Returns a table without its last columns, which differ from run to run.
 inline std::string lasting_columns(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line, kept;
@@ -38,7 +38,7 @@ inline std::string lasting_columns(const std::string& csv) {
   return kept;
 }
 
-/// A folder with a scenario of a tenth of a second, and the built program to fly it.
+/// A folder with a scenario of 0.1 s, and the built program that flies it.
 class CampaignFolder : public TemporaryFolder {
  public:
   CampaignFolder() {
@@ -54,7 +54,7 @@ class CampaignFolder : public TemporaryFolder {
     write_file_whole(path() / name, text);
     return path() / name;
   }
-  /// A program to stand for the workers': `body` is shell, in which $seed is the flight's seed and `fly` flies it.
+  /// Returns a worker program. @param body  shell script, in which $seed is the flight's seed and `fly` flies it.
   std::string worker(const std::string& body) const {
     const std::filesystem::path file =
         write("worker.sh", "#!/bin/sh\nseed=$(echo \"$*\" | sed 's/.*--seed \\([0-9]*\\).*/\\1/')\nfly() { exec " +
@@ -62,7 +62,7 @@ class CampaignFolder : public TemporaryFolder {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return file.string();
   }
-  /// Runs `hedgehop ARGUMENTS` by a shell in this folder.
+  /// Runs `hedgehop ARGUMENTS` with a shell in this folder.
   CommandEnd hedgehop(const std::string& arguments) const { return shell(HEDGEHOP_PROGRAM " " + arguments); }
   CommandEnd shell(const std::string& command) const {
     const std::string line = "cd '" + path().string() + "' && { " + command + "; } >stdout.txt 2>stderr.txt";
@@ -76,7 +76,7 @@ class CampaignFolder : public TemporaryFolder {
   nlohmann::ordered_json json(const std::string& name) const { return nlohmann::ordered_json::parse(read(name)); }
 };
 
-/// What an XML parser of another house reads from a JUnit file: "suite/case wrong message" a line.
+/// Returns a JUnit file as read by an independent XML parser: one line "suite/case result message" per case.
 inline std::string junit_cases(const CampaignFolder& folder, const std::string& file) {
   folder.write(
       "read_junit.py",

@@ -16,13 +16,13 @@ TEST(Seeds, RangesIncludeBothEndsAndKeepTheirOrder) {
   EXPECT_EQ(parse_seeds("18446744073709551614:18446744073709551615").size(), 2u);
 }
 
-TEST(Seeds, RefusesWhatIsNoListOfSeeds) {
+TEST(Seeds, RejectsTextsThatAreNotListsOfSeeds) {
   for (const char* text : {"", "1:", ":3", "a", "3:1", "1,1", "1:3,2", "1,,2", "-1", "1.5", "1:2:3", "0:99999999"}) {
     EXPECT_THROW(parse_seeds(text), InputError) << text;
   }
 }
 
-TEST(JudgingSeeds, AreThoseThatNoRangeOfTuningHolds) {
+TEST(JudgingSeeds, AreDisjointFromTheTuningSeeds) {
   std::mt19937_64 generator(3);
   const auto range = [&](uint64_t& first, uint64_t& last) {
     first = generator() % 20;

@@ -1,4 +1,4 @@
-// Which results of an earlier batch stand, and which are flown again.
+// Reuse of results of an earlier batch.
 #include <gmock/gmock.h>
 
 #include "tests/sim/batch/campaign_folder.h"
@@ -12,7 +12,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Reuse, ScenarioThatChangedIsFlownAgain) {
+TEST(Reuse, AChangedScenarioIsFlownAgain) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out --program " + worker).status, 0);
@@ -22,8 +22,8 @@ TEST(Reuse, ScenarioThatChangedIsFlownAgain) {
   EXPECT_EQ(folder.read("flown.txt").size(), 8u);
 }
 
-/// One byte of a file that a flight depends on makes it another flight, whichever builds may stand.
-TEST(Reuse, FileOfTheSceneThatChangedIsFlownAgain) {
+/// A change of one byte in an input file makes the result invalid, even with --reuse-other-builds.
+TEST(Reuse, AChangedFileOfTheSceneIsFlownAgain) {
   const CampaignFolder folder;
   folder.write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n");
   folder.write("t.mtl", "newmtl m\nmap_Kd t.ppm\n");
@@ -43,8 +43,8 @@ TEST(Reuse, FileOfTheSceneThatChangedIsFlownAgain) {
   EXPECT_EQ(folder.read("flown.txt"), "x\nx\n");
 }
 
-/// A result of another build is reused only with the option for it, and then every table names both builds.
-TEST(Reuse, ResultOfAnotherBuildIsFlownAgainUnlessAskedFor) {
+/// A result of another build is reused only with --reuse-other-builds; every table then names both builds.
+TEST(Reuse, AResultOfAnotherBuildIsReusedOnlyWithTheOption) {
   const CampaignFolder folder;
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 1:2 --out out").status, 0);
   const std::string own = folder.json("out/tiny/seed1/result.json").at("build");

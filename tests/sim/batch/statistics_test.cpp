@@ -26,7 +26,7 @@ TEST(WilsonInterval, MatchesPublishedTable) {
   }
 }
 
-/// The score interval's ends are where the test of a rate stands at its critical value.
+/// At the ends of the score interval, the test statistic of the rate equals its critical value.
 TEST(WilsonInterval, EndsSolveTheScoreEquation) {
   const double z = normal_quantile(0.95);
   for (int64_t n : {1, 4, 30, 1000}) {
@@ -56,8 +56,8 @@ TEST(NewcombeDifference, MatchesPublishedTable) {
   }
 }
 
-/// Deals the successes to the trials in every way there is, and counts.
-TEST(FisherLowerTail, EqualsTheCountOfAllDeals) {
+/// The oracle enumerates all assignments of the successes to the trials.
+TEST(FisherLowerTail, EqualsTheEnumerationOfAllAssignments) {
   for (int a = 1; a <= 5; ++a) {
     for (int b = 1; b <= 5; ++b) {
       for (int i = 0; i <= a; ++i) {

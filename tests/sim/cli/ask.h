@@ -9,7 +9,7 @@ namespace hedgehop::sim::cli {
 
 inline constexpr int kBadInput = 2;
 
-/// What the program said, on both streams, and its exit status.
+/// The output of the program on both streams, and its exit status.
 struct Answer {
   int status = -1;
   std::string text;

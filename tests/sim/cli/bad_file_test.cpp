@@ -1,4 +1,4 @@
-// Files that are no scenario, no mesh and no result, however they are made: one clear line, soon.
+// Files that are not a scenario, a mesh or a result lead to one clear error line within a short time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ constexpr int kBadInput = 2;
 
 class BadFile : public testing::Test {
  protected:
-  /// Processor time is limited: what goes on without end is killed, and is no status 2.
+  /// Processor time is limited. A command that does not end is killed, and its status is then not 2.
   CommandEnd run(const std::string& arguments) const {
     return folder.shell("ulimit -t 20; " HEDGEHOP_PROGRAM " run " + arguments + " --no-video --out out");
   }
@@ -34,7 +34,7 @@ class BadFile : public testing::Test {
   CampaignFolder folder;
 };
 
-TEST_F(BadFile, PipesDevicesFoldersAndHugeFilesAreNoScenarios) {
+TEST_F(BadFile, RejectsPipesDevicesFoldersAndHugeFilesAsScenarios) {
   folder.shell("mkfifo pipe; truncate -s 70M huge.yaml");
   refused("pipe", "pipe: is a device or a pipe, not a file");
   refused("/dev/zero", "/dev/zero: is a device or a pipe, not a file");
@@ -44,7 +44,7 @@ TEST_F(BadFile, PipesDevicesFoldersAndHugeFilesAreNoScenarios) {
   refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
 }
 
-TEST_F(BadFile, APipeKeepsNoCommandWaiting) {
+TEST_F(BadFile, APipeDoesNotBlockAnyCommand) {
   folder.write("sweep.yaml",
                "scenario: tiny.yaml\nseeds: 1\ntuned_on: 1:2000\ndesign: {type: grid}\n"
                "parameters: [{path: start.east, values: [0, 0.1]}]\n");
@@ -76,7 +76,7 @@ TEST_F(BadFile, APipeKeepsNoCommandWaiting) {
   }
 }
 
-TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
+TEST_F(BadFile, NamesTheKindOfAFileOfAnotherKind) {
   const std::string configs = HEDGEHOP_SOURCE_DIR "/configs/";
   for (const auto& [file, kind] :
        std::map<std::string, std::string>{{"vehicles/s900.yaml", "a vehicle"},
@@ -92,7 +92,7 @@ TEST_F(BadFile, FilesOfAnotherKindAreNamedAsWhatTheyAre) {
   }
 }
 
-TEST_F(BadFile, DocumentsBeyondAllMeasureAreRefusedNotRead) {
+TEST_F(BadFile, RejectsHugeDocumentsBeforeReadingThem) {
   std::string keys = "use: tiny.yaml\n", list = "use: tiny.yaml\nroute: [", open;
   for (int i = 0; i < 100'000; ++i) keys += "key" + std::to_string(i) + ": 1\n";
   for (int i = 0; i < 300'000; ++i) list += "1,";
@@ -111,14 +111,14 @@ TEST_F(BadFile, DocumentsBeyondAllMeasureAreRefusedNotRead) {
   refused("word.yaml", "expected a map of keys, got 'aaaa");
 }
 
-TEST_F(BadFile, AThousandFaultsAreCountedNotListed) {
+TEST_F(BadFile, CountsAThousandErrorsInsteadOfListingThem) {
   std::string keys = "use: tiny.yaml\n";
   for (int i = 0; i < 1000; ++i) keys += "key" + std::to_string(i) + ": 1\n";
   folder.write("keys.yaml", keys);
   refused("keys.yaml", "and 950 more");
 }
 
-TEST_F(BadFile, WhatAMeshNamesIsNoPipeAndNoOtherFormat) {
+TEST_F(BadFile, RejectsPipesAndOtherFormatsNamedByAMesh) {
   folder.shell("mkfifo pipe.mtl; truncate -s 3G huge.mtl; mkfifo buffer; mkfifo pipe.obj");
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   folder.write("piped.obj", "mtllib pipe.mtl\n" + triangle);
@@ -148,7 +148,7 @@ TEST_F(BadFile, WhatAMeshNamesIsNoPipeAndNoOtherFormat) {
   for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
 }
 
-TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
+TEST_F(BadFile, RejectsMeshesThatTheImporterCannotRead) {
   std::ofstream folded(folder.path() / "folded.obj");
   folded << "v 0 0 0\nv 1 0 0\nv 0 1 0\n  f";
   for (int i = 0; i < 20'000; ++i) folded << (i % 100 == 99 ? "\\\n" : "\t") << i % 3 + 1;
@@ -169,19 +169,19 @@ TEST_F(BadFile, MeshesThatChokeTheImporterAreRefused) {
   refused(with("far.obj"), "it has corners farther than 100 km from the origin");
 }
 
-TEST_F(BadFile, ANameIsNoWayOutOfTheFolder) {
+TEST_F(BadFile, ANameCannotLeaveTheFolder) {
   for (const char* name : {"../../x", "a/b", ".hidden", "\"a\\nb\""}) {
     refused("tiny.yaml --set 'name=" + std::string(name) + "'", "'name': must be 1 to 200 letters");
   }
 }
 
-TEST_F(BadFile, AStartInAWallOrOutsideTheRoomIsRefused) {
+TEST_F(BadFile, RejectsAStartInAWallOrOutsideTheRoom) {
   refused("tiny.yaml --set start.north=8", "'start': the vehicle collides at the start: hit");
   refused("tiny.yaml --set start.north=50", "'start': is outside the room, which is 16 m long");
   refused("tiny.yaml --set start.altitude=0", "'start': the vehicle collides at the start: hit the ground");
 }
 
-TEST_F(BadFile, WhereNothingCanBeWrittenIsToldBeforeTheFlight) {
+TEST_F(BadFile, ReportsAnUnwritableFolderBeforeTheFlight) {
   folder.write("file", "");
   const CommandEnd end = folder.hedgehop("run tiny.yaml --no-video --out file/below");
   EXPECT_EQ(end.status, kBadInput);
@@ -201,18 +201,18 @@ TEST_F(BadFile, WhereNothingCanBeWrittenIsToldBeforeTheFlight) {
   }
 }
 
-TEST_F(BadFile, ADeviceIsWrittenIntoNotReplaced) {
+TEST_F(BadFile, WritesIntoADeviceWithoutReplacingIt) {
   folder.shell("mkfifo pipe; cat pipe >read & true");
   EXPECT_EQ(folder.hedgehop("trim " HEDGEHOP_SOURCE_DIR "/configs/vehicles/s900.yaml --plot pipe").status, 0);
   EXPECT_TRUE(std::filesystem::is_fifo(folder.path() / "pipe"));
 }
 
-TEST_F(BadFile, AFaultIsOneLine) {
+TEST_F(BadFile, AnErrorIsOneLine) {
   for (const std::string& arguments :
        {std::string("run $'a\nb.yaml'"), std::string("run tiny.yaml --set $'a\nb=1'"),
         std::string("run tiny.yaml --set 'scene.imports=[{file: \"a\\nb\"}]'"),
         std::string("run tiny.yaml --seed $'1\n2'"), std::string("batch tiny.yaml --until $'colli\nsion < 0.1'"),
-        std::string("bless tiny"), std::string("reproduce nowhere.yaml"), std::string("run"), std::string("fly")}) {
+        std::string("bless tiny"), std::string("reproduce missing.yaml"), std::string("run"), std::string("fly")}) {
     folder.write("command", HEDGEHOP_PROGRAM " " + arguments + "\n");
     const CommandEnd end = folder.shell("bash command");
     EXPECT_EQ(end.status, kBadInput) << arguments;
@@ -220,7 +220,7 @@ TEST_F(BadFile, AFaultIsOneLine) {
   }
 }
 
-TEST_F(BadFile, AResultOfAnotherShapeIsNamedAndFlownAgain) {
+TEST_F(BadFile, AMalformedResultIsNamedAndFlownAgain) {
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --seeds 3 --out out").status, 0);
   const std::string whole = folder.read("out/tiny/seed3/result.json");
   const std::string hash = folder.json("out/tiny/seed3/result.json")["trajectory_hash"];

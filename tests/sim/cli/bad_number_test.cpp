@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 const std::string kScenario = HEDGEHOP_SOURCE_DIR "/configs/andert2007_tree_160.yaml";
 
-TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
+TEST(NumberOptions, RejectIntegerOverflowAndNonFiniteNumbers) {
   const std::string out = " --out " + testing::TempDir() + "/bad_number";
   for (const std::string option : {"--seed -1", "--seed 18446744073709551616", "--seed 1.5", "--seed 0x10"}) {
     const Answer answer = ask("run " + kScenario + out + " " + option);
@@ -32,7 +32,7 @@ TEST(NumberOptions, RefuseWhatWrapsOrIsNotFinite) {
   EXPECT_EQ(ask("batch " + kScenario + " --limit 0").text, "--limit: must be more than 0, got 0 (see --help)\n");
 }
 
-TEST(Commands, ASlipOfTheirNamesIsToldWithThoseThereAre) {
+TEST(Commands, AMisspelledNameListsTheNearest) {
   const Answer slip = ask("bacth " + kScenario);
   EXPECT_EQ(slip.status, kBadInput);
   EXPECT_THAT(slip.text, testing::StartsWith("unknown command 'bacth'; did you mean 'batch'? allowed: run, render, "));
@@ -46,7 +46,7 @@ TEST(Commands, TheRemovedCommandEstimateNamesItsReplacement) {
   EXPECT_EQ(answer.text, "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`\n");
 }
 
-TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
+TEST(Options, AMisspelledNameListsTheNearest) {
   const Answer slip = ask("run " + kScenario + " --ot x");
   EXPECT_EQ(slip.status, kBadInput);
   EXPECT_THAT(slip.text, testing::StartsWith("unknown option '--ot'; did you mean '--out'? allowed: --help, "));
@@ -54,7 +54,7 @@ TEST(Options, ASlipOfTheirNamesIsToldWithTheNearest) {
   EXPECT_EQ(std::ranges::count(slip.text, '\n'), 1);
 }
 
-TEST(Options, AScenarioMayFollowAValueThatIsSet) {
+TEST(Options, AScenarioMayFollowSet) {
   EXPECT_THAT(ask("run --set duration=-1 " + kScenario).text, testing::HasSubstr("'duration': must be > 0"));
   EXPECT_THAT(ask("batch --set duration=-1 " + kScenario + " --seeds 1").text,
               testing::HasSubstr("'duration': must be > 0"));

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string kConfigs = HEDGEHOP_SOURCE_DIR "/configs/";
 
-/// A vehicle's file with one text of it changed, in a file of its own: tests run side by side.
+/// A vehicle file with one changed text. Each test has its own file because tests run in parallel.
 std::string changed(const std::string& name, const std::string& vehicle, const std::string& from,
                     const std::string& to) {
   std::ifstream stream(kConfigs + "vehicles/" + vehicle + ".yaml");
@@ -35,7 +35,7 @@ struct Bad {
 };
 class BadVehicle : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadVehicle, IsRefusedInOneLineWithTheReason) {
+TEST_P(BadVehicle, IsRejectedInOneLineWithTheReason) {
   const Bad& bad = GetParam();
   const std::string file = changed(bad.name, bad.vehicle, bad.from, bad.to);
   for (const std::string& command : {"trim " + file, "linearize " + file,

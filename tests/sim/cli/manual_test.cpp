@@ -33,7 +33,7 @@ class Manual : public testing::Test {
   CampaignFolder folder;
 };
 
-TEST_F(Manual, HoldsEveryCommandAndOptionThatHelpPrints) {
+TEST_F(Manual, ContainsEveryCommandAndOptionOfHelp) {
   const std::string page = folder.hedgehop("manual man").out, fish = folder.hedgehop("manual fish").out;
   const std::string help = folder.hedgehop("--help").out;
   const std::set<std::string> commands = matches(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
@@ -60,7 +60,7 @@ TEST_F(Manual, ReferencePageHasAnExampleOfEveryCommand) {
   }
 }
 
-TEST_F(Manual, HasNoLineThatRoffWouldTakeForARequest) {
+TEST_F(Manual, HasNoLineThatRoffWouldReadAsARequest) {
   const std::set<std::string> requests = matches("\n" + folder.hedgehop("manual man").out, "\n[.']([^ \n]*)");
   EXPECT_THAT(requests, testing::IsSubsetOf({"TH", "SH", "SS", "TP", "B", "I", "nf", "fi"}));
 }
@@ -74,7 +74,7 @@ TEST_F(Manual, BashOffersCommandsOptionsTheirValuesAndFiles) {
   EXPECT_EQ(completed("hedgehop --v"), "--version\n");
 }
 
-TEST_F(Manual, ShellsThatAreThereReadTheirs) {
+TEST_F(Manual, InstalledShellsReadTheirCompletions) {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     const CommandEnd end = folder.shell("command -v " + shell + " || exit 77; " HEDGEHOP_PROGRAM " manual " + shell +
                                         " > file; " + shell + " -n file");

@@ -1,4 +1,4 @@
-// What the program shows on a terminal, a pseudo-terminal of a given width here.
+// Progress output on a terminal (a pseudo-terminal of a given width).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -13,7 +13,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// What a command writes to a terminal of so many columns.
+/// Returns the output of a command on a terminal with the given number of columns.
 std::string on_terminal(const std::string& command, unsigned short columns) {
   winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
   int terminal = -1;
@@ -31,7 +31,7 @@ std::string on_terminal(const std::string& command, unsigned short columns) {
   return text;
 }
 
-TEST(Progress, LineOfAFlightFitsANarrowTerminalAndNamesTheTimeLeft) {
+TEST(Progress, LineOfAFlightFitsANarrowTerminalAndShowsTheRemainingTime) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "progress";
   const std::string command = HEDGEHOP_PROGRAM
                               " run " HEDGEHOP_SOURCE_DIR

@@ -63,7 +63,7 @@ TEST_F(RendererOption, FormerOptionStillWorksAndPrintsItsNewName) {
   EXPECT_EQ(ask("render --info --gl tiles --renderer osmesa").status, kBadInput);
 }
 
-TEST_F(RendererOption, UnknownNamesAndFormerKeysAreRefusedInOneLine) {
+TEST_F(RendererOption, RejectsUnknownNamesAndFormerKeysInOneLine) {
   EXPECT_EQ(ask("render --info --renderer tile").status, kBadInput);
   EXPECT_EQ(ask("render --info --gl tile").status, kBadInput);
   const Answer former = ask("run " HEDGEHOP_SOURCE_DIR "/configs/andert2007_tree_160.yaml --set drawing.context=tiles");

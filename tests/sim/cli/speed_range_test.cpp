@@ -16,7 +16,7 @@ TEST(SpeedRange, IsOneSpeedOrEvenSteps) {
   EXPECT_THAT(speed_range("2:2:1"), ElementsAre(2.0));
 }
 
-TEST(SpeedRange, HoldsItsLastSpeedWhateverTheRounding) {
+TEST(SpeedRange, ContainsItsLastSpeedDespiteRounding) {
   for (const char* text : {"0:1:0.1", "0:0.3:0.1", "1:1.7:0.1"}) {
     const std::vector<double> speeds = speed_range(text);
     const std::string all(text);
@@ -24,7 +24,7 @@ TEST(SpeedRange, HoldsItsLastSpeedWhateverTheRounding) {
   }
 }
 
-TEST(SpeedRange, RefusesWhatIsNone) {
+TEST(SpeedRange, RejectsOtherTexts) {
   for (const char* text :
        {"", "fast", "1:2", "1:2:0", "1:2:-1", "3:2:1", "1:2:3:4", "1:2:x", "nan", "0:inf:1", "2m", "0:1e9:1e-9"}) {
     EXPECT_THROW(speed_range(text), InputError) << text;

@@ -1,4 +1,4 @@
-// What becomes of the program when the streams it was given are full, closed, or no longer read.
+// Behavior of the program if its standard streams are full, closed, or no longer read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,13 +39,13 @@ TEST(Streams, ResultThatCannotBeWrittenIsAnError) {
 
 TEST(Streams, ReaderThatClosesItsPipeEndsNoFlight) {
   const std::string folder = fresh_folder("pipe");
-  // The status goes past the pipe, through the second descriptor.
+  // The status is passed through the second descriptor, not through the pipe.
   const Answer answer = ask(short_run(folder) + " --json | true; test -s " + folder + "/result.json && echo written");
   EXPECT_THAT(answer.text, HasSubstr("written"));
 }
 
-TEST(Streams, APipeThatNobodyReadsIsNoFault) {
-  // More than a pipe holds, so the program still writes when the reader is gone.
+TEST(Streams, AClosedPipeIsNoError) {
+  // The output exceeds the pipe's buffer, so the program still writes after the reader has exited.
   const Answer answer =
       ask("--version >/dev/null; ( { " HEDGEHOP_PROGRAM " schema; echo status $? >&3; } | true ) 3>&1");
   EXPECT_EQ(answer.text, "status 0\n");
@@ -57,7 +57,7 @@ TEST(Streams, FullStandardErrorIsNoReasonToFail) {
   EXPECT_EQ(ask("trim " HEDGEHOP_SOURCE_DIR "/configs/vehicles/s900.yaml --plot " + page + " 2>/dev/full #").status, 0);
 }
 
-TEST(Streams, ClosedOnesAreNoReasonToFail) {
+TEST(Streams, ClosedStreamsAreNoReasonToFail) {
   const std::string folder = fresh_folder("closed");
   EXPECT_EQ(ask(short_run(folder) + " <&- >&- 2>&- #").status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder + "/result.json"));

@@ -1,5 +1,6 @@
-// Campaigns on a disk that is full, breaks, or interrupts: one line and a documented exit status, nothing half written
-// that looks whole, nothing lost that was computed, and the same tables once the disk is well again.
+// Campaigns on a disk that is full, broken, or interrupts calls. Requirements: one error line, a documented exit
+// status, no incomplete file under its final name, no loss of computed results, and the same tables after the disk
+// recovers.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -22,7 +23,7 @@ using ::testing::SizeIs;
 
 constexpr int kFails = 1, kBadInput = 2, kInternalError = 3;
 
-/// Lines of standard error that are no progress.
+/// Returns the lines of standard error without progress.
 std::vector<std::string> complaints(const std::string& err) {
   std::istringstream lines(err);
   std::vector<std::string> found;
@@ -38,7 +39,7 @@ class Disk : public ::testing::TestWithParam<std::string_view> {
     return folder.shell(folder.on_failing_disk("out", fault, at) + HEDGEHOP_PROGRAM " " +
                         folder.arguments(GetParam(), "out", workers));
   }
-  /// The calls to try: all, where asked for (scripts/soak), else some.
+  /// Returns the calls to test: all calls if requested (scripts/soak), otherwise a sample.
   std::vector<uint64_t> calls_to_try() const {
     const auto count = static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 1));
     std::vector<uint64_t> all(folder.calls());
@@ -47,8 +48,8 @@ class Disk : public ::testing::TestWithParam<std::string_view> {
     std::ranges::sample(all, std::back_inserter(some), static_cast<std::ptrdiff_t>(count), std::mt19937_64(1));
     return some;
   }
-  /// A flight whose result.json is there is whole, and stays; the same command then leaves what the undisturbed one
-  /// did.
+  /// Expects that a flight with a result.json is complete and is kept, and that repeating the command gives the same
+  /// files as a command without faults.
   void expect_recovery(const std::map<std::string, std::string>& whole, const std::string& when) {
     for (const auto& [name, text] : folder.lasting_files("out")) {
       if (!name.ends_with("/result.json")) continue;
@@ -63,10 +64,10 @@ class Disk : public ::testing::TestWithParam<std::string_view> {
   SmallCampaign folder;
 };
 
-TEST_P(Disk, ThatFailsAtAnyCallIsReportedAndNothingIsLost) {
+TEST_P(Disk, ThatFailsAtAnyCallIsReportedWithoutLossOfResults) {
   const auto whole = folder.fly_undisturbed(GetParam());
   for (const std::string_view fault : {"full", "broken", "hiccup"}) {
-    // The C library's words and SQLite's.
+    // Messages of the C library and of SQLite.
     const std::string words = fault == "full" ? "No space left on device|database or disk is full"
                                               : "Input/output error|disk I/O error|unable to open database";
     for (const uint64_t at : calls_to_try()) {
@@ -80,7 +81,7 @@ TEST_P(Disk, ThatFailsAtAnyCallIsReportedAndNothingIsLost) {
   }
 }
 
-TEST_P(Disk, ThatInterruptsAndWritesInPartsIsNoFault) {
+TEST_P(Disk, ThatInterruptsCallsAndWritesInPartsIsNoError) {
   const auto whole = folder.fly_undisturbed(GetParam());
   const CommandEnd end = fly("interrupted", 0, 2);
   EXPECT_EQ(end.status, 0) << end.out << end.err;
@@ -88,8 +89,8 @@ TEST_P(Disk, ThatInterruptsAndWritesInPartsIsNoFault) {
   EXPECT_THAT(differences(whole, folder.lasting_files("out")), IsEmpty());
 }
 
-/// No file may grow past a limit: the error of writing, not its signal, must reach the user.
-TEST_P(Disk, ThatLimitsFilesEndsNoCampaignByASignal) {
+/// With a limit on file sizes, the user must get the write error, not the signal.
+TEST_P(Disk, ThatLimitsFileSizesEndsNoCampaignWithASignal) {
   const auto whole = folder.fly_undisturbed(GetParam());
   const CommandEnd end = folder.shell("ulimit -f 4; " HEDGEHOP_PROGRAM " " + folder.arguments(GetParam(), "out", 1));
   EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << end.out << end.err;
@@ -97,8 +98,8 @@ TEST_P(Disk, ThatLimitsFilesEndsNoCampaignByASignal) {
   expect_recovery(whole, "limited");
 }
 
-/// What a user meets first: the folder cannot be written, which is known before anything is flown.
-TEST_P(Disk, ThatMayOnlyBeReadIsBadInputBeforeAnyFlight) {
+/// The most common case: the folder is not writable, which is detected before the first flight.
+TEST_P(Disk, ThatIsReadOnlyIsBadInputBeforeAnyFlight) {
   const std::string line = "unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o ro none out && " HEDGEHOP_PROGRAM " " +
                            folder.arguments(GetParam(), "out", 1) + "'";
   if (folder.shell("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o ro none out'").status != 0) {
@@ -109,8 +110,8 @@ TEST_P(Disk, ThatMayOnlyBeReadIsBadInputBeforeAnyFlight) {
   EXPECT_THAT(end.err, ContainsRegex("^out: cannot write results: .*Read-only file system\n$"));
 }
 
-/// A disk that really is full, at several sizes.
-TEST_P(Disk, ThatIsSmallIsReportedAndNothingIsLost) {
+/// Real full disks of several sizes.
+TEST_P(Disk, ThatIsFullIsReportedWithoutLossOfResults) {
   if (folder.shell("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o size=64k none out'").status != 0) {
     GTEST_SKIP() << "no mounts here";
   }
@@ -131,7 +132,8 @@ TEST_P(Disk, ThatIsSmallIsReportedAndNothingIsLost) {
 INSTANTIATE_TEST_SUITE_P(Campaign, Disk, ::testing::ValuesIn(SmallCampaign::kCommands),
                          [](const auto& row) { return std::string(row.param); });
 
-/// One flight with film and page: the film is worth a warning, the rest an error; each call to a file once.
+/// One flight with video and page: a missing video is a warning, any other missing file is an error. Tests each file
+/// call.
 TEST(DiskOfARun, ThatFailsAtAnyCallIsReported) {
   const SmallCampaign folder;
   const std::string run = HEDGEHOP_PROGRAM " run tiny.yaml --out out";

@@ -1,12 +1,13 @@
-// A disk that fails, laid between a program and the C library by LD_PRELOAD. It counts what the program and all that it
-// starts do to files below one folder (create, write, rename, make a folder, close what was written), and lets one of
-// those calls, or all from one on, fail:
-//   FAILING_DISK_FOLDER   absolute path; nothing else is counted
-//   FAILING_DISK_COUNTER  file of 16 bytes, first all zero, that these processes count in
-//   FAILING_DISK_FAULT    none; full, broken (from the call on: ENOSPC, EIO), hiccup (that one call: EIO); kill,
-//   kill_first
-//                         (before that call, SIGKILL to its process, to the first of them all); interrupted (half of
-//                         all calls, reading and polling too: EINTR; writes end early)
+// Simulates a failing disk as a library between a program and the C library (LD_PRELOAD). It counts the file calls of
+// the program and its children below one folder: create, write, rename, mkdir, and close of a written file. It then
+// lets one call, or all calls from one on, fail:
+//   FAILING_DISK_FOLDER   absolute path of the folder
+//   FAILING_DISK_COUNTER  file of 16 bytes, initially zero, which is the shared counter of these processes
+//   FAILING_DISK_FAULT    none
+//                         full, broken: ENOSPC or EIO from the call on
+//                         hiccup: EIO for this call only
+//                         kill, kill_first: before the call, SIGKILL to its process or to the first of all processes
+//                         interrupted: EINTR for half of all calls, including reads and polls; writes end early
 //   FAILING_DISK_AT       number of the call, from 1
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -46,7 +47,7 @@ Function* real(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-/// What all processes share.
+/// The state shared by all processes.
 struct Shared {
   std::atomic<uint64_t> calls;
   std::atomic<int64_t> first;  ///< process
@@ -93,13 +94,13 @@ bool is_below(int descriptor) {
 
 bool interrupts() { return settings().fault == "interrupted"; }
 
-/// Half the calls of this process are interrupted, without a rhythm.
+/// Returns whether this call is interrupted: half of the calls of this process, in an irregular order.
 bool is_interrupted() {
   static std::atomic<uint64_t> calls;
   return std::mt19937_64(calls++)() % 2 == 0;
 }
 
-/// The error of this call to a file below the folder, else 0.
+/// Returns the error of this call to a file below the folder; otherwise 0.
 int fault_now() {
   const int before = errno;
   const uint64_t call = shared().calls.fetch_add(1) + 1;
@@ -125,7 +126,7 @@ Result unless_faulty(bool counts, Call call) {
   return call();
 }
 
-/// Of an interruption, the count that is written.
+/// Returns the number of bytes that an interrupted write writes.
 size_t cut(size_t count) { return interrupts() ? (count + 1) / 2 : count; }
 
 mode_t mode_of(int flags, va_list rest) { return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0; }
@@ -188,7 +189,7 @@ int mkdir(const char* path, mode_t mode) noexcept {
   return unless_faulty<int>(!interrupts() && is_below(path), [&] { return next(path, mode); });
 }
 
-/// As on a network's disk, where what was written fails only now; the file is closed all the same.
+/// As on a network disk, a write error may be reported only by close(). The file is closed nevertheless.
 int close(int file) {
   static const auto next = real<int(int)>("close");
   const int flags = fcntl(file, F_GETFL);

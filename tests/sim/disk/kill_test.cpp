@@ -1,4 +1,4 @@
-// Campaigns that are killed, or whose workers are, and started again: nothing may be lost, and nothing differ.
+// Campaigns that are killed, or whose workers are killed, and then resumed. No result may be lost or differ.
 #include <gmock/gmock.h>
 #include <poll.h>
 #include <signal.h>
@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 
 class Killed : public ::testing::TestWithParam<std::string_view> {
  protected:
-  /// Goes on with what was killed, into `out`, and expects what the undisturbed campaign left; then forgets it.
+  /// Resumes the killed campaign in `out`, expects the files of an undisturbed campaign and removes the folder.
   void resume(const std::map<std::string, std::string>& whole, const std::string& killed) {
     const CommandEnd end = folder.hedgehop(folder.arguments(GetParam(), "out", 2));
     EXPECT_EQ(end.status, 0) << killed << ": " << end.err;
@@ -33,7 +33,7 @@ class Killed : public ::testing::TestWithParam<std::string_view> {
   std::mt19937_64 random{1};
 };
 
-TEST_P(Killed, BeforeAnyCallToItsFilesLosesNothing) {
+TEST_P(Killed, BeforeAnyFileCallLosesNoResults) {
   const auto whole = folder.fly_undisturbed(GetParam());
   const uint64_t calls = folder.calls();
   ASSERT_GT(calls, 20u);
@@ -48,7 +48,7 @@ TEST_P(Killed, BeforeAnyCallToItsFilesLosesNothing) {
   }
 }
 
-/// The command in this folder, as a process.
+/// Runs the command in this folder as a process.
 pid_t start(const SmallCampaign& folder, const std::string& arguments) {
   const std::string line =
       "cd '" + folder.path().string() + "' && exec " HEDGEHOP_PROGRAM " " + arguments + " >stdout.txt 2>stderr.txt";
@@ -65,8 +65,8 @@ std::vector<pid_t> children(pid_t pid) {
   return all;
 }
 
-/// At a random time of a campaign, by SIGKILL to the command or to one of its workers.
-TEST_P(Killed, AtAnyTimeLosesNothing) {
+/// Sends SIGKILL to the command or to one of its workers at a random time.
+TEST_P(Killed, AtAnyTimeLosesNoResults) {
   const int kills = count_asked("HEDGEHOP_KILLS", 1);
   const auto begun = std::chrono::steady_clock::now();
   const auto whole = folder.fly_undisturbed(GetParam());

@@ -13,7 +13,7 @@
 
 namespace hedgehop::sim {
 
-/// A batch, a sweep and a reproduction of four flights of a tenth of a second, and a disk that fails under them.
+/// A batch, a sweep and a reproduction of four flights of 0.1 s each, on a disk with injected faults.
 class SmallCampaign : public CampaignFolder {
  public:
   SmallCampaign() {
@@ -27,14 +27,14 @@ class SmallCampaign : public CampaignFolder {
 
   static constexpr std::string_view kCommands[] = {"batch", "sweep", "reproduce"};
 
-  /// Arguments of one of kCommands: the same again goes on where the last one was interrupted.
+  /// Returns the arguments of one of kCommands. Repeating the command resumes an interrupted one.
   static std::string arguments(std::string_view command, std::string_view out, int workers) {
     const std::string options = fmt::format(" -j {} --out {}", workers, out);
     if (command == "batch") return "batch tiny.yaml --seeds 1:4 --resume" + options;
     return std::string(command) + (command == "sweep" ? " gains.yaml" : " paper.yaml") + options;
   }
 
-  /// Flies a command undisturbed into the folder `out`, and returns what it leaves; the folder is gone then.
+  /// Runs a command without faults into the folder `out`, returns the contents of the folder and removes it.
   std::map<std::string, std::string> fly_undisturbed(std::string_view command) const {
     const CommandEnd end =
         shell(on_failing_disk("out", "none", 0) + HEDGEHOP_PROGRAM " " + arguments(command, "out", 2));
@@ -44,24 +44,24 @@ class SmallCampaign : public CampaignFolder {
     return files;
   }
 
-  /// What is set before a command so that the `at`-th call below the folder `out` is met by a fault (failing_disk.cpp).
+  /// Returns the environment of a command that injects a fault into the `at`-th call below `out` (failing_disk.cpp).
   std::string on_failing_disk(std::string_view out, std::string_view fault, uint64_t at) const {
     write("counter", std::string(2 * sizeof(uint64_t), '\0'));
-    // AddressSanitizer would insist on being the first library.
+    // AddressSanitizer requires that it is the first library.
     return fmt::format(
         "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD={} FAILING_DISK_FOLDER={} FAILING_DISK_COUNTER={} "
         "FAILING_DISK_FAULT={} FAILING_DISK_AT={} ",
         FAILING_DISK, (path() / out).string(), (path() / "counter").string(), fault, at);
   }
-  /// Calls that the last command made below its folder.
+  /// Returns the number of calls of the last command below its folder.
   uint64_t calls() const {
     uint64_t count = 0;
     std::memcpy(&count, read("counter").data(), sizeof count);
     return count;
   }
 
-  /// Every file below a folder, by its path in it: its text without what differs from run to run. Of a page and a
-  /// database, only that they are there.
+  /// Returns the text of every file below a folder by relative path, without the parts that differ from run to run. For
+  /// a page and a database it records only that they exist.
   std::map<std::string, std::string> lasting_files(std::string_view out) const {
     std::map<std::string, std::string> files;
     const std::filesystem::path folder = path() / out;
@@ -89,7 +89,7 @@ class SmallCampaign : public CampaignFolder {
   }
 };
 
-/// Names of files whose text differs, or that only one side has.
+/// Returns the names of files whose text differs or that exist on one side only.
 inline std::vector<std::string> differences(const std::map<std::string, std::string>& a,
                                             const std::map<std::string, std::string>& b) {
   std::vector<std::string> names;
@@ -102,7 +102,7 @@ inline std::vector<std::string> differences(const std::map<std::string, std::str
   return names;
 }
 
-/// How often something is tried: as an environment variable says (scripts/soak), else `usual`.
+/// Returns the number of trials: from an environment variable (scripts/soak), otherwise `usual`.
 inline int count_asked(const char* variable, int usual) {
   const char* const text = std::getenv(variable);
   return text ? std::atoi(text) : usual;

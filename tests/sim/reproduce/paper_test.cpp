@@ -65,6 +65,19 @@ TEST(PaperFile, UnknownNamesAreRefusedWithTheirPlace) {
               Contains(HasSubstr("no flights are called 'c'")));
 }
 
+TEST(PaperFile, FormerKeysAreRejectedWithTheirNewNames) {
+  const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2', ";
+  EXPECT_THAT(faults_of(flights + "printed: [law=published]}]"), Contains(HasSubstr("its name is now 'published'")));
+  EXPECT_THAT(faults_of(flights + "beside: '1'}]"), Contains(HasSubstr("its name is now 'sensor_seeds'")));
+  EXPECT_THAT(faults_of("rows: [{what: w, calculation: section_costs, value: x}]"),
+              Contains(HasSubstr("its name is now 'claim'")));
+  EXPECT_THAT(faults_of("rows: [{claim: w, flights: [a], column: wall_s, statistic: least}]"),
+              Contains(HasSubstr("its name is now 'min'")));
+  EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: flights, label: l, x: [1], flights: [a], column: wall_s, "
+                        "statistic: greatest}]}]"),
+              Contains(HasSubstr("its name is now 'max'")));
+}
+
 TEST(PaperFile, ContradictionsAreRefused) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2'}]\n";
   EXPECT_THAT(faults_of("rows: [{claim: w}]"), Contains(HasSubstr("either 'flights' or 'calculation'")));

@@ -1,0 +1,37 @@
+#include "sim/cli/misspelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/config/config_tree.h"
+
+namespace hedgehop::sim::cli {
+
+std::string unknown_command(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
+  if (word == "estimate") return "the command 'estimate' was removed; to bound a rate, use `hedgehop batch --until`";
+  return fmt::format("unknown command '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+}
+
+std::string unknown_option(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_group().empty()) continue;  // hidden
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    }
+  }
+  for (const std::string& word : app.remaining(/*recurse=*/true)) {
+    if (word.starts_with("-") && word.size() > 1) {
+      return fmt::format("unknown option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
+    }
+  }
+  return {};
+}
+
+}  // namespace hedgehop::sim::cli
