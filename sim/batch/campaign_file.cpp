@@ -24,7 +24,7 @@ template <class Named>
 std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::string>& faults) {
   std::set<std::string> names;
   for (const Named& one : all) {
-    if (!names.insert(one.name).second) faults.push_back(fmt::format("leaderboard: '{}' stands twice", one.name));
+    if (!names.insert(one.name).second) faults.push_back(fmt::format("leaderboard: '{}' occurs twice", one.name));
   }
   return names;
 }

@@ -35,11 +35,11 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
     const size_t colon = part.find(':');
     const std::optional<uint64_t> first = parse_unsigned(part.substr(0, colon));
     const std::optional<uint64_t> last = colon == std::string::npos ? first : parse_unsigned(part.substr(colon + 1));
-    if (!first || !last) refuse_seeds(text, fmt::format("'{}' is no whole number or range of them", part));
+    if (!first || !last) refuse_seeds(text, fmt::format("'{}' is not a whole number or a range such as 1:10", part));
     if (*last < *first) refuse_seeds(text, fmt::format("{} comes after {}", *first, *last));
     if (*last - *first >= kMaxSeeds - seeds.size()) refuse_seeds(text, "more than a million seeds");
     for (uint64_t offset = 0; offset <= *last - *first; ++offset) {
-      if (!known.insert(*first + offset).second) refuse_seeds(text, fmt::format("{} stands twice", *first + offset));
+      if (!known.insert(*first + offset).second) refuse_seeds(text, fmt::format("{} occurs twice", *first + offset));
       seeds.push_back(*first + offset);
     }
   }
@@ -61,8 +61,9 @@ std::string seed_words(std::vector<uint64_t> seeds) {
 
 std::string judging_fault(const std::optional<std::string>& tuned_on, const std::string& seeds) {
   if (!tuned_on) {
-    return "needs 'tuned_on': the seeds that parameters were chosen on, such as 1:100, or none where none were; "
-           "'seeds' lie outside of them";
+    return "missing key 'tuned_on': the seeds on which parameters were chosen, such as 1:100, or none; 'seeds' must "
+           "not "
+           "contain any of them";
   }
   try {
     const std::vector<uint64_t> judging = parse_seeds(seeds);

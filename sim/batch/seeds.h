@@ -8,19 +8,20 @@
 
 namespace hedgehop::sim {
 
-/// Seeds of a text like "1:10" (both ends), "3" or "1:3,7". @throws InputError for anything else, for a range that
-/// falls, for a doubled seed or more than a million of them.
+/// Returns the seeds of a text such as "1:10" (both ends included), "3" or "1:3,7". Throws InputError for any other
+/// text, for a descending range, a repeated seed, or more than a million seeds.
 std::vector<uint64_t> parse_seeds(const std::string& text);
 
-/// Seeds as parse_seeds() reads them, in rising order, each once; "" of none.
+/// Returns seeds as text for parse_seeds(), in ascending order without duplicates; "" without seeds.
 std::string seed_words(std::vector<uint64_t> seeds);
 
-/// Seeds that parameters were chosen on do not judge them: a file that judges states both, as `tuned_on:` and `seeds:`.
-/// @param tuned_on  as the file has it: seeds such as 1:100, or "none"; nothing where the key is missing.
-/// @return what is wrong, one line: tuned_on missing, either no seeds, or a seed in both; "" when nothing is.
+/// Checks that tuning seeds are not used for evaluation. A file that evaluates states both, as `tuned_on:` and
+/// `seeds:`.
+/// @param tuned_on  value of the key: seeds such as 1:100, or "none"; nullopt if the key is missing.
+/// @return the error, one line: tuned_on missing, a text that is not a list of seeds, or a seed in both; "" if valid.
 std::string judging_fault(const std::optional<std::string>& tuned_on, const std::string& seeds);
 
-/// Whether every seed of `part` is one of `whole`. Throws InputError where either is no list of seeds.
+/// Returns whether every seed of `part` is in `whole`. Throws InputError if either is not a list of seeds.
 bool within(const std::string& part, const std::string& whole);
 
 }  // namespace hedgehop::sim

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// What a sample of seeds shows about all of them.
+/// Statistical inference from a sample of seeds.
 namespace hedgehop::sim {
 
 /// Successes out of a number of trials.
@@ -16,19 +16,21 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// Of the intervals in tables and on pages.
+/// Confidence of the intervals in tables and on pages.
 inline constexpr double kTableConfidence = 0.95;
 
-/// Two-sided score interval of a proportion; [0, 1] without trials. @param confidence  in (0, 1).
+/// Returns the two-sided score interval of a proportion; [0, 1] without trials. @param confidence  in (0, 1).
 /// Source: [Wilson1927] p. 212. Its properties: [Newcombe1998a] table 1, method 3.
 Interval wilson_interval(Count count, double confidence);
 
-/// Two-sided interval of the difference of two proportions, first less second, from their Wilson intervals.
-/// @param confidence  in (0, 1). Both counts need a trial. Source: [Newcombe1998b] p. 876, method 10.
+/// Returns the two-sided interval of the difference of two proportions, first minus second, from their Wilson
+/// intervals.
+/// @param confidence  in (0, 1). Both counts must have at least one trial.
+/// Source: [Newcombe1998b] p. 876, method 10.
 Interval newcombe_difference(Count first, Count second, double confidence);
 
-/// Probability that chance alone, with one and the same rate behind both counts, gives the first as few successes as it
-/// has or fewer, the numbers of trials and of all successes being what they are. Source: [Fisher1934] sec. 21.02.
+/// Returns the probability that the first count has at most its number of successes if both counts have the same rate,
+/// conditional on the numbers of trials and the total number of successes. Source: [Fisher1934] sec. 21.02.
 double fisher_lower_tail(Count first, Count second);
 
 }  // namespace hedgehop::sim

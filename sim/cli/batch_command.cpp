@@ -44,9 +44,12 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
                                         options.confidence, options.margin});
   }
   if (batch.orders.empty() || std::ranges::none_of(batch.orders, &std::string::empty, &Order::fault)) {
-    throw InputError(batch.faults.empty() ? std::vector<std::string>{"batch: nothing to fly"} : batch.faults);
+    throw InputError(
+        batch.faults.empty()
+            ? std::vector<std::string>{"batch: no flights; name a scenario, a campaign or a folder with such files"}
+            : batch.faults);
   }
-  // An earlier batch that cannot be read is better known before the flights than after.
+  // Reports an unreadable earlier batch before the flights.
   const std::vector<GroupSummary> planned = summarize(gather(batch.orders, {}, /*other_builds=*/false));
   judge(batch.checks, planned);
   require_decidable(batch.checks, planned);

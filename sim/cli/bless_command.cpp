@@ -25,7 +25,7 @@ std::vector<TimedPoint> flown_path(const std::filesystem::path& run_folder) {
   return path;
 }
 
-/// Where the scenario looks for its reference, or, without such a check, beside the scenario's file.
+/// Returns the reference file of the scenario's path_tolerance; without such a check, a file next to the scenario.
 std::filesystem::path reference_file(const std::filesystem::path& run_folder, const std::string& scenario_file) {
   const Scenario scenario = load_scenario(run_folder / "scenario.yaml");
   for (const CheckConfig& check : scenario.checks) {
@@ -36,7 +36,7 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
   return std::filesystem::path(scenario_file).replace_extension("reference.csv");
 }
 
-/// Why a flight is no good example; empty when it is one. A path_tolerance is what blessing is about to change.
+/// Returns why a flight cannot be a reference; empty if it can. Ignores path_tolerance, whose reference is replaced.
 std::string failure_of(const nlohmann::ordered_json& result) {
   const std::string outcome = result.value("outcome", "");
   if (outcome == "collided" || outcome == "fault") return outcome;

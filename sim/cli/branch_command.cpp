@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUnbroken = "unbroken";
 
-/// What may change during a flight is what has no effect before: the rest must be as it was.
+/// Requires that the changed settings have no effect before the time of the branch.
 void require_same_before(const Scenario& base, const Scenario& changed, double at_s) {
   Scenario rest = changed;
   rest.avoidance = base.avoidance;

@@ -89,7 +89,7 @@ class FalsifyRun {
     return records ? std::optional(std::move(records->front())) : std::nullopt;
   }
 
-  /// Prints what was found and returns the exit status.
+  /// Prints the failures and returns the exit status.
   int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
     const auto failing = std::ranges::count_if(result.trials, &FalsifyTrial::fails);
     fmt::print("{}{}", several_builds_words(result.records), truth_words(result.records));

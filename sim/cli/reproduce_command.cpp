@@ -57,7 +57,8 @@ std::vector<Paper> read_papers(const std::vector<std::string>& names) {
   return papers;
 }
 
-/// Flies what is missing of all papers, in one go so that the time left is that of all. Ids begin with the paper's key.
+/// Flies the missing flights of all papers as one campaign, so that the remaining time covers all. Ids begin with the
+/// paper's key.
 std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceOptions& options, const fs::path& out,
                               Interruption& interruption) {
   std::vector<Order> orders;

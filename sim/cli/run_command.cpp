@@ -89,7 +89,7 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
              result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
   if (!result.truth_used.empty()) fmt::print("  truth used: {}\n", fmt::join(result.truth_used, "; "));
   for (const CheckResult& check : result.checks) print_check(check);
-  if (result.checks.empty()) fmt::print("  no checks: nothing was asked of this flight\n");
+  if (result.checks.empty()) fmt::print("  no checks defined\n");
   fmt::print("  written: {}\n", (out / (has_report ? "report.html" : "result.json")).string());
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the comment at the head of a file begins with: its first sentence.
+/// Returns the first sentence of the comment at the head of a file.
 std::string first_sentence(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string text, line;
@@ -48,7 +48,7 @@ template <class Compute>
 auto about(const std::filesystem::path& file, Compute compute) {
   const dynamics::VehicleConfig vehicle = load_vehicle(file);
   try {
-    dynamics::Vehicle{vehicle};  // throws with the reason, where it could never fly
+    dynamics::Vehicle{vehicle};  // throws with the reason if the vehicle cannot fly
     return compute(vehicle);
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));

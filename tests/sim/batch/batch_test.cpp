@@ -256,7 +256,7 @@ TEST(Batch, CampaignRejectsTuningSeedsForEvaluation) {
   folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, seeds: 1:2}\n");
   const CommandEnd unsaid = folder.hedgehop("batch campaign.yaml --out out");
   EXPECT_EQ(unsaid.status, 2);
-  EXPECT_THAT(unsaid.err, HasSubstr("campaign.yaml:2:34: needs 'tuned_on'"));
+  EXPECT_THAT(unsaid.err, HasSubstr("campaign.yaml:2:34: missing key 'tuned_on'"));
   folder.write("campaign.yaml", "tuned_on: 2:9\nflights:\n  - {scenario: tiny.yaml, seeds: 1:2}\n");
   EXPECT_THAT(folder.hedgehop("batch campaign.yaml --out out").err,
               HasSubstr("campaign.yaml:3:34: seeds '1:2' judge by seed 2, which parameters were chosen on"));

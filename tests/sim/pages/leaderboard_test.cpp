@@ -141,7 +141,7 @@ TEST(Leaderboard, RejectsUnknownAndRepeatedNames) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.errors(),
-                ElementsAre("leaderboard: 'a' stands twice", "leaderboard: no module 'other'",
+                ElementsAre("leaderboard: 'a' occurs twice", "leaderboard: no module 'other'",
                             "leaderboard: 'other' is not flown without a reason", "leaderboard: no world 'c'"));
   }
 }

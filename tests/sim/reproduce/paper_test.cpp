@@ -104,7 +104,7 @@ TEST(PaperFile, TuningSeedsAreRefusedAsJudgingSeeds) {
     }
     return {};
   };
-  EXPECT_THAT(faults("flights: [{scenario: a.yaml, seeds: 1:2}]"), Contains(HasSubstr("needs 'tuned_on'")));
+  EXPECT_THAT(faults("flights: [{scenario: a.yaml, seeds: 1:2}]"), Contains(HasSubstr("missing key 'tuned_on'")));
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 10:12}]"),
               Contains(AllOf(HasSubstr("p.yaml:4:"), HasSubstr("seed 10"))));
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12}]"), IsEmpty());
