@@ -12,7 +12,7 @@
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
@@ -37,8 +37,8 @@ std::string folder_name(const std::string& group, int number) {
     const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
     name += safe ? c : '_';
   }
-  constexpr size_t kLongest = 120;
-  name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kLongest);
+  constexpr size_t kMaxNameLength = 120;
+  name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kMaxNameLength);
   return number == 1 ? name : fmt::format("{}~{}", name, number);
 }
 

@@ -10,113 +10,145 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
-#include "sim/record/csv_table.h"
-#include "sim/record/json_number.h"
 
 namespace hedgehop::sim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Numbers = std::vector<double>;
+using Words = std::vector<std::string>;
+
+/// Integers up to here are exact as doubles.
+constexpr uint64_t kMaxExactInteger = uint64_t{1} << 53;
 
 struct Figure {
   const char *name, *unit;
+  double (*value)(const FlightResult& result);
+  bool whole = false;
 };
-/// Figures of result.json that are the same whenever the flight is re-simulated.
-constexpr Figure kFigures[] = {{"flight_time_s", "s"},
-                               {"path_length_m", "m"},
-                               {"mean_speed_mps", "m/s"},
-                               {"min_clearance_m", "m"},
-                               {"min_obstacle_clearance_m", "m"},
-                               {"min_ground_clearance_m", "m"},
-                               {"goal_distance_m", "m"},
-                               {"decisions", ""},
-                               {"trajectory_hash", ""}};
-constexpr Figure kTimes[] = {{"wall_s", "s"}, {"realtime_factor", ""}};
-constexpr const char* kStages[] = {"decision_ms", "render_ms", "velocimeter_ms", "physics_ms"};
+/// Figures of a result that are the same whenever the flight is flown again.
+constexpr Figure kFigures[] = {
+    {"flight_time_s", "s", [](const FlightResult& r) { return r.flight_time_s; }},
+    {"path_length_m", "m", [](const FlightResult& r) { return r.path_length_m; }},
+    {"mean_speed_mps", "m/s", [](const FlightResult& r) { return r.mean_speed_mps; }},
+    {"min_clearance_m", "m", [](const FlightResult& r) { return closest_approach(r).distance_m; }},
+    {"min_obstacle_clearance_m", "m", [](const FlightResult& r) { return r.closest_obstacle.distance_m; }},
+    {"min_ground_clearance_m", "m", [](const FlightResult& r) { return r.closest_ground.distance_m; }},
+    {"goal_distance_m", "m", [](const FlightResult& r) { return r.goal_distance_m.value_or(NAN); }},
+    {"decisions", "", [](const FlightResult& r) { return static_cast<double>(r.decisions); }, /*whole=*/true}};
+constexpr Figure kTimes[] = {{"time.wall_s", "s", [](const FlightResult& r) { return r.wall_s; }},
+                             {"time.realtime_factor", "", [](const FlightResult& r) { return r.realtime_factor; }}};
+constexpr std::pair<const char*, StageTime FlightResult::*> kStages[] = {
+    {"decision_ms", &FlightResult::decision_ms},
+    {"render_ms", &FlightResult::render_ms},
+    {"velocimeter_ms", &FlightResult::velocimeter_ms},
+    {"physics_ms", &FlightResult::physics_ms}};
 
-Cell cell(const Json& value) {
-  if (value.is_number_integer()) return value.get<int64_t>();
-  if (value.is_number()) return value.get<double>();
-  if (value.is_boolean()) return static_cast<int64_t>(value.get<bool>());
-  if (value.is_string()) return value.get<std::string>();
-  return {};
-}
-
-Cell field(const Json& object, const std::string& key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return found == object.end() || !object.is_object() ? Cell{} : cell(*found);
-}
-
-/// SQLite's integers have a sign; a seed that needs all 64 bits is a text.
-Cell seed_cell(uint64_t seed) {
-  if (seed > static_cast<uint64_t>(std::numeric_limits<int64_t>::max())) return std::to_string(seed);
-  return static_cast<int64_t>(seed);
-}
-
-struct NamedCell {
-  TableColumn column;
-  Cell cell;
+/// A figure under the name of its column.
+struct NamedFigure {
+  std::string column;
+  double value = 0.0;
+  std::string unit;
+  FigureKind kind = FigureKind::judged;
 };
 
 /// Checks of one name get numbers from the second on: a scenario may check a thing twice.
-std::vector<NamedCell> check_cells(const Json& result) {
-  std::vector<NamedCell> cells;
-  if (!result.is_object()) return cells;
-  for (const Json& check : result.at("checks")) {
-    const std::string base = "check." + check.at("name").get<std::string>();
+std::vector<NamedFigure> check_figures(const FlightResult& result) {
+  std::vector<NamedFigure> figures;
+  for (const CheckResult& check : result.checks) {
+    const std::string base = "check." + check.name;
     std::string name = base;
-    for (int i = 2; std::ranges::any_of(cells, [&](const auto& c) { return c.column.name == name; }); ++i) {
+    for (int i = 2; std::ranges::find(figures, name, &NamedFigure::column) != figures.end(); ++i) {
       name = fmt::format("{}.{}", base, i);
     }
-    cells.push_back({{std::move(name), check.value("unit", ""), FigureKind::judged}, field(check, "value")});
+    figures.push_back({std::move(name), check.value, check.unit, FigureKind::judged});
   }
-  return cells;
-}
-
-FigureKind kind_of(const Json& result, const std::string& metric) {
-  const auto kinds = result.find("metric_kinds");
-  const std::string kind = kinds == result.end() ? "" : kinds->value(metric, "");
-  for (const FigureKind known : {FigureKind::module, FigureKind::wall_time}) {
-    if (kind == to_string(known)) return known;
-  }
-  return FigureKind::judged;
+  return figures;
 }
 
 /// Metrics of wall time, or all others.
-std::vector<NamedCell> metric_cells(const Json& result, bool of_wall_time) {
-  std::vector<NamedCell> cells;
-  if (!result.is_object()) return cells;
-  const Json units = result.value("metric_units", Json::object());
-  for (const auto& [name, value] : result.at("metrics").items()) {
-    const FigureKind kind = kind_of(result, name);
-    if ((kind == FigureKind::wall_time) != of_wall_time) continue;
-    cells.push_back({{(of_wall_time ? "time." : "metric.") + name, units.value(name, ""), kind}, cell(value)});
+std::vector<NamedFigure> metric_figures(const FlightResult& result, bool of_wall_time) {
+  std::vector<NamedFigure> figures;
+  for (const MetricValue& metric : result.metrics) {
+    if ((metric.kind == FigureKind::wall_time) != of_wall_time) continue;
+    figures.push_back({(of_wall_time ? "time." : "metric.") + metric.name, metric.value, metric.unit, metric.kind});
   }
-  return cells;
+  return figures;
 }
 
-/// Adds a column for every name that any record has, in the order of their first appearance.
-template <class CellsOf>
-void add_named(Table& table, const std::vector<FlightRecord>& records, CellsOf cells_of) {
-  const size_t first = table.columns.size();
-  for (size_t row = 0; row < records.size(); ++row) {
-    for (NamedCell& named : cells_of(records[row].result)) {
-      const auto begin = table.columns.begin() + static_cast<std::ptrdiff_t>(first);
-      const auto found = std::ranges::find(begin, table.columns.end(), named.column.name, &TableColumn::name);
-      const auto column = static_cast<size_t>(found - table.columns.begin());
-      if (column == table.columns.size()) table.columns.push_back(std::move(named.column));
-      if (table.rows[row].size() <= column) table.rows[row].resize(column + 1);
-      table.rows[row][column] = std::move(named.cell);
+double finite_or_unknown(double value) { return std::isfinite(value) ? value : NAN; }
+
+/// Builds the columns of a table of flights, one row per record.
+class FlightColumns {
+ public:
+  explicit FlightColumns(const std::vector<FlightRecord>& records) : records_(records) {}
+
+  template <class WordOf>
+  void add_words(const char* name, WordOf word_of, std::optional<FigureKind> kind = {}) {
+    Words words;
+    for (const FlightRecord& record : records_) words.push_back(word_of(record));
+    table_.add({.name = name, .values = std::move(words), .kind = kind});
+  }
+  void add_figure(const Figure& figure, FigureKind kind) {
+    add_numbers(figure.name, figure.unit, kind, figure.value, figure.whole);
+  }
+  template <class ValueOf>
+  void add_numbers(std::string name, const char* unit, FigureKind kind, ValueOf value_of, bool whole = false) {
+    Numbers numbers;
+    for (const FlightRecord& record : records_) {
+      numbers.push_back(record.result ? finite_or_unknown(value_of(record.result->flight)) : NAN);
+    }
+    table_.add({.name = std::move(name), .values = std::move(numbers), .unit = unit, .kind = kind, .whole = whole});
+  }
+  /// Adds a column for every name that any record has, in the order of their first appearance.
+  template <class FiguresOf>
+  void add_named(FiguresOf figures_of) {
+    std::vector<Table::Column> columns;
+    for (size_t row = 0; row < records_.size(); ++row) {
+      if (!records_[row].result) continue;
+      for (NamedFigure& figure : figures_of(records_[row].result->flight)) {
+        auto column = std::ranges::find(columns, figure.column, &Table::Column::name);
+        if (column == columns.end()) {
+          column = columns.insert(columns.end(), {.name = std::move(figure.column),
+                                                  .values = Numbers(records_.size(), NAN),
+                                                  .unit = std::move(figure.unit),
+                                                  .kind = figure.kind});
+        }
+        std::get<Numbers>(column->values)[row] = finite_or_unknown(figure.value);
+      }
+    }
+    for (Table::Column& column : columns) table_.add(std::move(column));
+  }
+  /// A seed that no double holds exactly makes its column one of words.
+  void add_seeds() {
+    Words words;
+    Numbers numbers;
+    for (const FlightRecord& record : records_) {
+      words.push_back(std::to_string(record.order.seed));
+      numbers.push_back(static_cast<double>(record.order.seed));
+    }
+    const bool exact =
+        std::ranges::all_of(records_, [](const FlightRecord& record) { return record.order.seed <= kMaxExactInteger; });
+    if (exact) {
+      table_.add({.name = "seed", .values = std::move(numbers), .whole = true});
+    } else {
+      table_.add("seed", std::move(words));
     }
   }
-  for (auto& row : table.rows) row.resize(table.columns.size());
-}
+  void add_passed() {
+    Numbers numbers;
+    for (const FlightRecord& record : records_) {
+      const Verdict verdict = verdict_of(record);
+      numbers.push_back(verdict == Verdict::unchecked ? NAN : verdict == Verdict::passed ? 1.0 : 0.0);
+    }
+    table_.add({.name = "passed", .values = std::move(numbers), .whole = true});
+  }
+  void add(Table::Column column) { table_.add(std::move(column)); }
+  Table take() { return std::move(table_); }
 
-template <class CellOf>
-void add(Table& table, const std::vector<FlightRecord>& records, TableColumn column, CellOf cell_of) {
-  table.columns.push_back(std::move(column));
-  for (size_t row = 0; row < records.size(); ++row) table.rows[row].push_back(cell_of(records[row]));
-}
+ private:
+  const std::vector<FlightRecord>& records_;
+  Table table_;
+};
 
 constexpr const char* kTables[] = {"falsify.csv", "sweep.csv", "batch.csv"};
 
@@ -136,12 +168,11 @@ FlightRecord::Status status_of(const std::string& word) {
 }
 
 /// A column that tables of earlier versions lack.
-std::vector<std::string> words_of(const CsvTable& table, const std::string& name) {
-  const bool has = std::ranges::find(table.names(), name) != table.names().end();
-  return has ? table.words(name) : std::vector<std::string>(table.rows());
+std::vector<std::string> words_of(const Table& table, const std::string& name) {
+  return table.has(name) ? table.words(name) : std::vector<std::string>(table.rows());
 }
 
-std::vector<FlightRecord> records_of(const CsvTable& table) {
+std::vector<FlightRecord> records_of(const Table& table) {
   const auto ids = table.words("id"), groups = table.words("group"), scenarios = table.words("scenario");
   const auto seeds = table.words("seed"), statuses = table.words("status"), outcomes = table.words("outcome");
   const auto causes = table.words("cause"), passes = table.words("passed");
@@ -155,88 +186,61 @@ std::vector<FlightRecord> records_of(const CsvTable& table) {
     record.status = status_of(statuses[i]);
     record.cause = causes[i];
     if (record.status != FlightRecord::Status::flown) continue;
-    record.result =
-        Json{{"outcome", outcomes[i]},
-             {"build", builds[i]},
-             {"truth_used", truths[i].empty() ? Json::array() : Json::array({truths[i]})},
-             {"checks", passes[i].empty() ? Json::array() : Json::array({Json{{"passed", passes[i] == "1"}}})},
-             {"min_obstacle_clearance_m", json_number(clearances[i])},
-             {"flight_time_s", times[i]}};
+    RunResult& result = record.result.emplace();
+    result.info.build = builds[i];
+    result.flight.outcome = parse_outcome(outcomes[i]).value_or(Outcome::fault);
+    result.flight.cause = causes[i];
+    if (!truths[i].empty()) result.flight.truth_used.push_back(truths[i]);
+    if (!passes[i].empty()) result.flight.checks.push_back({.name = {}, .passed = passes[i] == "1", .unit = {}});
+    const bool has_clearance = !std::isnan(clearances[i]);
+    result.flight.closest_obstacle.distance_m = has_clearance ? clearances[i] : std::numeric_limits<double>::infinity();
+    result.flight.flight_time_s = times[i];
   }
   return records;
 }
 
 }  // namespace
 
-Table flight_table(const std::vector<FlightRecord>& records, const std::vector<ExtraColumn>& extra) {
-  Table table;
-  table.rows.resize(records.size());
-  add(table, records, {"id", "", {}}, [](const FlightRecord& r) { return r.order.id; });
-  add(table, records, {"group", "", {}}, [](const FlightRecord& r) { return r.order.group; });
-  add(table, records, {"scenario", "", {}}, [](const FlightRecord& r) { return r.order.scenario.string(); });
-  add(table, records, {"seed", "", {}}, [](const FlightRecord& r) { return seed_cell(r.order.seed); });
-  for (const ExtraColumn& column : extra) {
-    table.columns.push_back({column.name, "", {}});
-    for (size_t row = 0; row < records.size(); ++row) table.rows[row].push_back(column.cells.at(row));
+Table flight_table(const std::vector<FlightRecord>& records, const std::vector<Table::Column>& extra) {
+  FlightColumns columns(records);
+  columns.add_words("id", [](const FlightRecord& r) { return r.order.id; });
+  columns.add_words("group", [](const FlightRecord& r) { return r.order.group; });
+  columns.add_words("scenario", [](const FlightRecord& r) { return r.order.scenario.string(); });
+  columns.add_seeds();
+  for (const Table::Column& column : extra) columns.add(column);
+  columns.add_words("status", [](const FlightRecord& r) { return std::string(to_string(r.status)); });
+  columns.add_words("outcome", [](const FlightRecord& r) { return outcome_words(r); });
+  columns.add_passed();
+  columns.add_words("cause", [](const FlightRecord& r) { return r.result ? r.result->flight.cause : r.cause; });
+  for (const Figure& figure : kFigures) columns.add_figure(figure, FigureKind::judged);
+  columns.add_words(
+      "trajectory_hash",
+      [](const FlightRecord& r) { return r.result ? r.result->flight.trajectory_hash : std::string(); },
+      FigureKind::judged);
+  columns.add_named([](const FlightResult& result) { return metric_figures(result, /*of_wall_time=*/false); });
+  columns.add_named(check_figures);
+  columns.add_words("truth_used",
+                    [](const FlightRecord& r) { return fmt::format("{}", fmt::join(truth_used(r), "; ")); });
+  columns.add_words("build", [](const FlightRecord& r) { return build_of(r); });
+  columns.add_words("command", [](const FlightRecord& r) { return rerun_command(r.order); });
+  for (const Figure& figure : kTimes) columns.add_figure(figure, FigureKind::wall_time);
+  columns.add_named([](const FlightResult& result) { return metric_figures(result, /*of_wall_time=*/true); });
+  for (const auto& [name, stage] : kStages) {
+    const std::string column = fmt::format("time.{}.", name);
+    columns.add_numbers(column + "median", "ms", FigureKind::wall_time,
+                        [stage = stage](const FlightResult& result) { return (result.*stage).median_ms; });
+    columns.add_numbers(column + "p95", "ms", FigureKind::wall_time,
+                        [stage = stage](const FlightResult& result) { return (result.*stage).p95_ms; });
   }
-  add(table, records, {"status", "", {}}, [](const FlightRecord& r) { return std::string(to_string(r.status)); });
-  add(table, records, {"outcome", "", {}}, [](const FlightRecord& r) { return outcome_words(r); });
-  add(table, records, {"passed", "", {}},
-      [](const FlightRecord& r) { return unchecked(r) ? Cell() : Cell(static_cast<int64_t>(passed(r))); });
-  add(table, records, {"cause", "", {}}, [](const FlightRecord& r) {
-    return r.status == FlightRecord::Status::flown ? field(r.result, "cause") : Cell(r.cause);
-  });
-  for (const auto& [name, unit] : kFigures) {
-    add(table, records, {name, unit, FigureKind::judged},
-        [key = std::string(name)](const FlightRecord& r) { return field(r.result, key); });
-  }
-  add_named(table, records, [](const Json& result) { return metric_cells(result, /*of_wall_time=*/false); });
-  add_named(table, records, check_cells);
-  add(table, records, {"truth_used", "", {}},
-      [](const FlightRecord& r) { return fmt::format("{}", fmt::join(truth_used(r), "; ")); });
-  add(table, records, {"build", "", {}}, [](const FlightRecord& r) { return build_of(r); });
-  add(table, records, {"command", "", {}}, [](const FlightRecord& r) { return rerun_command(r.order); });
-  for (const auto& [name, unit] : kTimes) {
-    add(table, records, {"time." + std::string(name), unit, FigureKind::wall_time},
-        [key = std::string(name)](const FlightRecord& r) { return field(r.result, key); });
-  }
-  add_named(table, records, [](const Json& result) { return metric_cells(result, /*of_wall_time=*/true); });
-  for (const std::string name : kStages) {
-    for (const std::string which : {"median", "p95"}) {
-      add(table, records, {fmt::format("time.{}.{}", name, which), "ms", FigureKind::wall_time},
-          [&](const FlightRecord& r) {
-            return r.result.is_object() && r.result.contains(name) ? field(r.result.at(name), which) : Cell{};
-          });
-    }
-  }
-  return table;
+  return columns.take();
 }
 
-size_t column_index(const Table& table, std::string_view name) {
-  return static_cast<size_t>(std::ranges::find(table.columns, name, &TableColumn::name) - table.columns.begin());
-}
-
-std::string csv_text(const Table& table) {
-  fmt::memory_buffer out;
-  {
-    CsvLine header(out);
-    for (const TableColumn& column : table.columns) header.add(std::string_view(column.name));
-  }
-  for (const std::vector<Cell>& row : table.rows) {
-    CsvLine line(out);
-    for (const Cell& value : row) {
-      if (const auto* integer = std::get_if<int64_t>(&value)) {
-        line.add(std::to_string(*integer));
-      } else if (const auto* number = std::get_if<double>(&value)) {
-        line.add(*number);
-      } else if (const auto* text = std::get_if<std::string>(&value)) {
-        line.add(*text);
-      } else {
-        line.add(std::string_view());
-      }
-    }
-  }
-  return fmt::to_string(out);
+std::optional<double> figure_of(const FlightResult& result, std::string_view column) {
+  const auto* const figure = std::ranges::find_if(kFigures, [&](const Figure& f) { return f.name == column; });
+  if (figure == std::end(kFigures)) return {};
+  const double value = figure->value(result);
+  const bool clearance = column.ends_with("clearance_m");
+  return std::isfinite(value) || (clearance && !std::isnan(value)) ? std::optional(value) : std::nullopt;
 }
 
 bool is_campaign(const std::filesystem::path& folder) {
@@ -245,7 +249,7 @@ bool is_campaign(const std::filesystem::path& folder) {
 
 FlightList read_flights(const std::filesystem::path& folder) {
   const std::filesystem::path file = table_of(folder);
-  FlightList list{.is_sweep = file.filename() != "batch.csv", .table = CsvTable(file), .records = {}};
+  FlightList list{.is_sweep = file.filename() != "batch.csv", .table = Table(file), .records = {}};
   list.records = records_of(list.table);
   return list;
 }

@@ -1,55 +1,29 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "sim/batch/record.h"
-#include "sim/flight/flight.h"
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
-
-/// A field of a table: nothing, a number or a text.
-using Cell = std::variant<std::monostate, int64_t, double, std::string>;
-
-struct TableColumn {
-  std::string name;
-  std::string unit;                ///< "" for none, or unknown
-  std::optional<FigureKind> kind;  ///< none for what was ordered and how it ended
-};
-
-/// Rows of equal width under named columns.
-struct Table {
-  std::vector<TableColumn> columns;
-  std::vector<std::vector<Cell>> rows;
-};
-
-/// A column that a campaign adds beside the order's own, one cell a record.
-struct ExtraColumn {
-  std::string name;
-  std::vector<Cell> cells;
-};
 
 /// One row a record, in their order: what was ordered, how it ended, the result's figures, the metrics (`metric.NAME`),
 /// the checks' values (`check.NAME`), the command that flies it again, and last the columns of FigureKind::wall_time,
 /// metrics among them (`time.NAME`). Columns depend on the records alone, never on the order in which flights ended.
-Table flight_table(const std::vector<FlightRecord>& records, const std::vector<ExtraColumn>& extra = {});
+Table flight_table(const std::vector<FlightRecord>& records, const std::vector<Table::Column>& extra = {});
 
-/// Index of a column; columns.size() when it is missing.
-size_t column_index(const Table& table, std::string_view name);
-
-/// The table as comma-separated values with a header line.
-std::string csv_text(const Table& table);
+/// A judged figure of a result by its column of flight_table(), as a number; none for another name. A clearance is
+/// infinite if nothing was within reach.
+std::optional<double> figure_of(const FlightResult& result, std::string_view column);
 
 /// What a campaign's folder holds of its flights.
 struct FlightList {
   bool is_sweep = false;              ///< or a search: its points have columns of their own
-  CsvTable table;                     ///< sweep.csv, falsify.csv or batch.csv
+  Table table;                        ///< sweep.csv, falsify.csv or batch.csv
   std::vector<FlightRecord> records;  ///< one a row: from the table, enough for summarize()
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "sim/batch/worker_pool.h"
 #include "sim/record/result_files.h"
 
 namespace hedgehop::sim {
@@ -30,60 +29,77 @@ FlightRecord recall(const Order& order, const std::filesystem::path& folder, boo
   return record;
 }
 
-void conclude(FlightRecord& record, const WorkerEnd& end, const FlyOptions& options) {
+}  // namespace
+
+OrderFlights::OrderFlights(const std::vector<Order>& orders, FlyOptions options, Reuse reuse,
+                           Interruption& interruption)
+    : options_(std::move(options)), reuse_(reuse), pool_(options_.workers, options_.limit_s, interruption) {
+  for (const Order& order : orders) records_.push_back({.order = order});
+}
+
+std::optional<EndedFlight> OrderFlights::next_unflown() {
+  while (examined_ < records_.size()) {
+    const size_t index = examined_++;
+    FlightRecord& record = records_[index];
+    const Order& order = record.order;
+    if (dropped_.contains(order.id)) continue;
+    if (!order.fault.empty()) {
+      record.status = Status::failed;
+      record.cause = order.fault;
+      return EndedFlight{record};
+    }
+    if (reuse_ != Reuse::none) {
+      FlightRecord former = recall(order, options_.out / order.id, options_.other_builds);
+      const Verdict verdict = verdict_of(former);
+      if (verdict != Verdict::not_flown && (reuse_ == Reuse::all || verdict == Verdict::passed)) {
+        record = std::move(former);
+        return EndedFlight{record, /*reused=*/true};
+      }
+    }
+    to_fly_.push_back(index);
+  }
+  return {};
+}
+
+void OrderFlights::start(size_t index) {
+  const Order& order = records_[index].order;
+  forget_flight(options_.out / order.id);  // a worker that dies must not leave an earlier verdict behind
+  pool_.start(index, worker_command(order, options_));
+}
+
+std::optional<EndedFlight> OrderFlights::next() {
+  if (std::optional<EndedFlight> ended = next_unflown()) return ended;
+  for (;;) {
+    while (started_ < to_fly_.size() && pool_.has_room()) {
+      const size_t index = to_fly_[started_++];
+      if (!dropped_.contains(records_[index].order.id)) start(index);
+    }
+    const std::optional<JobEnd> end = pool_.next();
+    if (!end) return {};
+    FlightRecord& record = records_[end->job];
+    conclude(record, end->end);
+    if (record.status != Status::missing) return EndedFlight{record};
+  }
+}
+
+void OrderFlights::drop(const Order& order) {
+  dropped_.insert(order.id);
+  pool_.stop_if([&](size_t index) { return records_[index].order.id == order.id; });
+}
+
+void OrderFlights::conclude(FlightRecord& record, const WorkerEnd& end) const {
   const bool has_verdict = end.kind == WorkerEnd::Kind::exited && (end.code == 0 || end.code == 1);
   if (has_verdict) {
-    if (FlightRecord left = recall(record.order, options.out / record.order.id, options.other_builds);
-        left.status == Status::flown) {
+    FlightRecord left = recall(record.order, options_.out / record.order.id, options_.other_builds);
+    if (left.status == Status::flown) {
       record = std::move(left);
       return;
     }
   }
   if (end.kind == WorkerEnd::Kind::stopped) return;  // still missing
   record.status = Status::failed;
-  record.cause = cause_words(end, options.limit_s);
+  record.cause = cause_words(end, options_.limit_s);
   if (has_verdict) record.cause += "; left no result of this scenario";
-}
-
-}  // namespace
-
-std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const FlyOptions& options, Reuse reuse,
-                                     Interruption& interruption, const OnRecord& on_record) {
-  std::vector<FlightRecord> records;
-  std::vector<size_t> to_fly;
-  for (const Order& order : orders) {
-    FlightRecord& record = records.emplace_back(FlightRecord{.order = order});
-    if (options.wanted && !options.wanted(order)) continue;
-    if (!order.fault.empty()) {
-      record.status = Status::failed;
-      record.cause = order.fault;
-      on_record(record, false);
-      continue;
-    }
-    if (reuse != Reuse::none) {
-      FlightRecord former = recall(order, options.out / order.id, options.other_builds);
-      if (former.status == Status::flown && (reuse == Reuse::all || passed(former))) {
-        record = std::move(former);
-        on_record(record, true);
-        continue;
-      }
-    }
-    to_fly.push_back(records.size() - 1);
-  }
-
-  WorkerPool pool{.workers = options.workers, .limit_s = options.limit_s};
-  if (options.wanted) pool.wanted = [&](size_t job) { return options.wanted(records[to_fly[job]].order); };
-  const auto command = [&](size_t job) {
-    const Order& order = records[to_fly[job]].order;
-    forget_flight(options.out / order.id);  // a worker that dies must not leave an earlier verdict behind
-    return worker_command(order, options);
-  };
-  pool.run(to_fly.size(), command, interruption, [&](size_t job, const WorkerEnd& end) {
-    FlightRecord& record = records[to_fly[job]];
-    conclude(record, end, options);
-    if (record.status != Status::missing) on_record(record, false);
-  });
-  return records;
 }
 
 std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,37 +12,66 @@
 
 namespace hedgehop::sim {
 
-/// How a campaign's flights are flown.
+/// How the flights of a campaign are flown.
 struct FlyOptions {
   std::filesystem::path program;  ///< of the workers: the hedgehop that runs now, absolute
   std::filesystem::path out;      ///< each flight's folder is <out>/<order.id>
-  bool other_builds = false;      ///< results of other builds stand, too
+  bool other_builds = false;      ///< results of other builds are reused, too
   size_t workers = 1;             ///< >= 1
-  double limit_s = 0.0;           ///< longest wall time of a flight, 0 for none
+  double limit_s = 0.0;           ///< maximum wall time of a flight, 0 for none
   bool reports = false;           ///< flights leave films and reports
-  /// Whether an order's flight still matters; looked at before it starts and whenever another has ended. One that no
-  /// longer does is neither reused nor flown, and killed where it flies. None: all do.
-  std::function<bool(const Order& order)> wanted = {};
 };
 
-/// Called when a flight ends, or at once for one that is not flown. @param reused  its former result is reused.
-using OnRecord = std::function<void(const FlightRecord& record, bool reused)>;
-
-/// Which former results are reused, so that their orders are not flown again.
+/// Which earlier results are reused, so that their orders are not flown again.
 enum class Reuse {
   none,
-  passed,  ///< those whose checks all hold
+  passed,  ///< those of Verdict::passed
   all
 };
 
-/// Flies orders in worker processes. A worker that crashes, hangs past the limit or is killed fails its own flight
-/// only. Orders with a fault are not flown.
-/// @return one record for each order, in their order; missing where the interruption came first.
-std::vector<FlightRecord> fly_orders(const std::vector<Order>& orders, const FlyOptions& options, Reuse reuse,
-                                     Interruption& interruption, const OnRecord& on_record);
+/// The end of one flight.
+struct EndedFlight {
+  const FlightRecord& record;
+  bool reused = false;  ///< an earlier result was reused
+};
 
-/// The records that former flights left, none flown. @param folders  campaigns' folders, searched in this order.
-/// @param other_builds  whether results of other builds stand, too.
+/// Flies orders in worker processes. A worker that crashes, exceeds the limit
+/// or is killed fails its own flight only. Orders with a fault are not flown.
+class OrderFlights {
+ public:
+  OrderFlights(const std::vector<Order>& orders, FlyOptions options, Reuse reuse, Interruption& interruption);
+
+  /// Waits for the next flight to end: orders with a fault and reused results
+  /// first, in their order, then flights as they end. None if all orders have
+  /// ended, were dropped or were interrupted.
+  std::optional<EndedFlight> next();
+
+  /// Drops an order that has not ended: it is neither reused nor flown, and its
+  /// process is killed. Its record stays missing.
+  void drop(const Order& order);
+
+  /// Returns one record per order, in their order; missing if it was dropped or
+  /// interrupted.
+  std::vector<FlightRecord> take_records() { return std::move(records_); }
+
+ private:
+  std::optional<EndedFlight> next_unflown();
+  void start(size_t index);
+  void conclude(FlightRecord& record, const WorkerEnd& end) const;
+
+  FlyOptions options_;
+  Reuse reuse_;
+  std::vector<FlightRecord> records_;
+  std::set<std::string> dropped_;  ///< ids
+  size_t examined_ = 0;            ///< orders that next_unflown() has seen
+  std::vector<size_t> to_fly_;     ///< indices of records
+  size_t started_ = 0;             ///< of to_fly_
+  WorkerPool pool_;
+};
+
+/// Returns the records of earlier flights, none flown. @param folders  of
+/// campaigns, searched in this order.
+/// @param other_builds  results of other builds count, too.
 std::vector<FlightRecord> gather(const std::vector<Order>& orders, const std::vector<std::filesystem::path>& folders,
                                  bool other_builds);
 

@@ -6,16 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/config/whole_file.h"
 #include "sim/fields/order_statistics.h"
-#include "sim/record/whole_file.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
-
-/// null of result.json is "nothing near": as far as can be.
-double number_or_infinity(const nlohmann::ordered_json& value) {
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::infinity();
-}
 
 Count earlier_count(const std::string& batch_json, const std::string& group) {
   try {
@@ -73,6 +69,25 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
   return verdict;
 }
 
+void count(const FlightRecord& record, GroupSummary& group) {
+  ++group.flights;
+  if (record.status == FlightRecord::Status::missing) {
+    ++group.missing;
+    return;
+  }
+  const Verdict verdict = verdict_of(record);
+  group.failed += verdict == Verdict::not_flown ? 1 : 0;
+  group.unchecked += verdict == Verdict::unchecked ? 1 : 0;
+  group.success.trials += verdict == Verdict::unchecked ? 0 : 1;
+  group.success.successes += verdict == Verdict::passed ? 1 : 0;
+  if (!record.result) return;
+  const Outcome outcome = record.result->flight.outcome;
+  group.reached += outcome == Outcome::reached ? 1 : 0;
+  group.collided += outcome == Outcome::collided ? 1 : 0;
+  group.timeout += outcome == Outcome::timeout ? 1 : 0;
+  group.fault += outcome == Outcome::fault ? 1 : 0;
+}
+
 }  // namespace
 
 std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
@@ -86,39 +101,40 @@ std::vector<GroupSummary> summarize(const std::vector<FlightRecord>& records) {
       times.emplace_back();
     }
     const auto index = static_cast<size_t>(group - groups.begin());
-    ++group->flights;
-    const std::string outcome = outcome_words(record);
-    group->reached += outcome == "reached" ? 1 : 0;
-    group->collided += outcome == "collided" ? 1 : 0;
-    group->timeout += outcome == "timeout" ? 1 : 0;
-    group->fault += outcome == "fault" ? 1 : 0;
-    group->failed += outcome == "failed" ? 1 : 0;
-    group->missing += outcome == "missing" ? 1 : 0;
-    group->unchecked += unchecked(record) ? 1 : 0;
-    group->success.trials += outcome == "missing" || unchecked(record) ? 0 : 1;
-    group->success.successes += passed(record) ? 1 : 0;
-    if (record.status != FlightRecord::Status::flown) continue;
-    clearances[index].push_back(number_or_infinity(record.result.at("min_obstacle_clearance_m")));
-    times[index].push_back(record.result.at("flight_time_s").get<double>());
+    count(record, *group);
+    if (!record.result) continue;
+    clearances[index].push_back(record.result->flight.closest_obstacle.distance_m);
+    times[index].push_back(record.result->flight.flight_time_s);
   }
   for (size_t i = 0; i < groups.size(); ++i) {
-    groups[i].least_clearance_m = clearances[i].empty() ? std::nan("") : std::ranges::min(clearances[i]);
+    groups[i].min_clearance_m = clearances[i].empty() ? std::nan("") : std::ranges::min(clearances[i]);
     groups[i].median_clearance_m = median(clearances[i]);
     groups[i].median_time_s = median(times[i]);
   }
   return groups;
 }
 
+int64_t flights_to_show(double rate, double confidence) {
+  const auto shows = [&](int64_t flights) { return wilson_interval({flights, flights}, confidence).low >= rate; };
+  const double z = normal_quantile(0.5 + 0.5 * confidence);
+  const auto flights = std::max<int64_t>(1, static_cast<int64_t>(std::ceil(rate * z * z / (1.0 - rate))));
+  // The closed form and the interval round differently: by one flight at most.
+  if (!shows(flights)) return flights + 1;
+  return flights > 1 && shows(flights - 1) ? flights - 1 : flights;
+}
+
 void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups) {
-  const auto shows = [](int64_t flights, const SuccessRateCheck& check) {
-    return wilson_interval({flights, flights}, check.confidence).low >= check.at_least;
-  };
   std::vector<std::string> faults;
   for (const CampaignCheck& any : checks) {
     const auto* check = std::get_if<SuccessRateCheck>(&any);
     if (!check) continue;
-    int64_t needed = 1;
-    while (!shows(needed, *check)) ++needed;
+    if (check->at_least >= 1.0) {
+      faults.push_back(
+          "success_rate: a rate of 1 cannot be shown: every future flight would have to pass, and no finite number of "
+          "flights shows that; require a rate below 1, such as 0.99");
+      continue;
+    }
+    const int64_t needed = flights_to_show(check->at_least, check->confidence);
     for (const GroupSummary& group : groups) {
       if (group.flights >= needed) continue;
       faults.push_back(

@@ -13,10 +13,10 @@ namespace hedgehop::sim {
 struct GroupSummary {
   std::string group;
   int64_t flights = 0, reached = 0, collided = 0, timeout = 0, fault = 0, failed = 0, missing = 0;
-  int64_t unchecked = 0;                                     ///< flown without any check: neither a success nor a trial
-  Count success;                                             ///< flights whose checks all hold, of those that ended
-  double least_clearance_m = 0.0, median_clearance_m = 0.0;  ///< to obstacles; NaN without a flight
-  double median_time_s = 0.0;                                ///< of flight; NaN without a flight
+  int64_t unchecked = 0;                                   ///< flown without any check: neither a success nor a trial
+  Count success;                                           ///< flights whose checks all hold, of those that ended
+  double min_clearance_m = 0.0, median_clearance_m = 0.0;  ///< to obstacles; NaN without a flight
+  double median_time_s = 0.0;                              ///< of flight; NaN without a flight
 };
 
 /// One row a group, in the order of their first flights.
@@ -30,8 +30,12 @@ struct GroupVerdict {
   std::string words;  ///< the whole sentence, with counts and interval
 };
 
+/// Returns the minimum number of flights that show a rate if all of them pass: the lower bound of the Wilson interval
+/// is n / (n + z^2) then. @param rate  in [0, 1). @param confidence  in (0, 1).
+int64_t flights_to_show(double rate, double confidence);
+
 /// Refuses a rate that a group's flights cannot show even if all of them pass, before they are flown.
-/// Throws InputError naming the number of flights that could.
+/// Throws InputError naming the number of flights that could; no number of flights shows a rate of 1.
 void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
 
 /// Results of all checks for all groups. A group that the earlier batch lacks fails no_worse.

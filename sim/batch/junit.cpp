@@ -3,140 +3,140 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <iterator>
-#include <utility>
+#include <cmath>
+#include <pugixml.hpp>
+#include <sstream>
+#include <string_view>
 
 #include "sim/flight/build.h"
 
 namespace hedgehop::sim {
 namespace {
 
-using Status = FlightRecord::Status;
-
-/// Text for XML 1.0: markup escaped, what no XML may hold replaced.
-std::string escaped(std::string_view text) {
+/// Text that every XML 1.0 parser accepts: a worker's last line may hold any bytes. Line breaks stay.
+std::string printable(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        // Only ASCII is sure to be well formed: a worker's last line may hold any bytes.
-        out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
-    }
+    const bool ascii = static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) <= 0x7e;
+    out += ascii || c == '\n' ? c : '?';
   }
   return out;
 }
 
-std::string number_words(const nlohmann::ordered_json& value) {
-  return value.is_number() ? fmt::format("{:g}", value.get<double>()) : "unknown";
+void set(pugi::xml_node node, const char* name, std::string_view value) {
+  node.append_attribute(name).set_value(printable(value).c_str());
 }
+void set(pugi::xml_node node, const char* name, int value) { node.append_attribute(name).set_value(value); }
 
-/// One test case; what is wrong with it, if anything, is an element of its own.
+std::string number_words(double value) { return std::isfinite(value) ? fmt::format("{:g}", value) : "unknown"; }
+
+/// Results of test cases.
+struct CaseCounts {
+  int tests = 0, failures = 0, errors = 0, skipped = 0;
+
+  void add(const CaseCounts& more) {
+    tests += more.tests;
+    failures += more.failures;
+    errors += more.errors;
+    skipped += more.skipped;
+  }
+  void write(pugi::xml_node node) const {
+    set(node, "tests", tests);
+    set(node, "failures", failures);
+    set(node, "errors", errors);
+    set(node, "skipped", skipped);
+  }
+};
+
+/// One test case. If it did not pass, an element of its own says so.
 struct Case {
   std::string name, facts;
-  std::string wrong = {};    ///< "failure", "error", "skipped" or nothing
-  std::string message = {};  ///< of what is wrong
+  std::string wrong = {};    ///< "failure", "error", "skipped" or ""
+  std::string message = {};  ///< of the element
 };
 
-class Suite {
- public:
-  Suite(std::string name, double time_s) : name_(std::move(name)), time_s_(time_s) {}
+struct Suite {
+  std::string name;
+  double time_s = 0.0;
+  std::vector<std::pair<const char*, std::string>> properties = {};  ///< without a value: not written
+  std::vector<Case> cases = {};
 
-  void add(const Case& c) {
-    ++tests_;
-    failures_ += c.wrong == "failure" ? 1 : 0;
-    errors_ += c.wrong == "error" ? 1 : 0;
-    skipped_ += c.wrong == "skipped" ? 1 : 0;
-    fmt::format_to(std::back_inserter(cases_), "    <testcase classname=\"{}\" name=\"{}\" time=\"{}\">\n",
-                   escaped(name_), escaped(c.name), tests_ == 1 ? time_s_ : 0.0);
-    if (!c.wrong.empty()) {
-      fmt::format_to(std::back_inserter(cases_), "      <{} message=\"{}\"/>\n", c.wrong, escaped(c.message));
+  CaseCounts counts() const {
+    CaseCounts counts;
+    for (const Case& c : cases) {
+      ++counts.tests;
+      counts.failures += c.wrong == "failure" ? 1 : 0;
+      counts.errors += c.wrong == "error" ? 1 : 0;
+      counts.skipped += c.wrong == "skipped" ? 1 : 0;
     }
-    fmt::format_to(std::back_inserter(cases_), "      <system-out>{}</system-out>\n    </testcase>\n",
-                   escaped(c.facts));
+    return counts;
   }
-  std::string text() const {
-    return fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\">\n{}{}  "
-        "</testsuite>\n",
-        escaped(name_), tests_, failures_, errors_, skipped_, time_s_, properties_text(), cases_);
-  }
-  /// A fact about the whole suite; none when the value is empty.
-  void set(std::string name, std::string value) {
-    if (!value.empty()) properties_.emplace_back(std::move(name), std::move(value));
-  }
-  int tests() const { return tests_; }
-  int failures() const { return failures_; }
-  int errors() const { return errors_; }
-  int skipped() const { return skipped_; }
-
- private:
-  std::string properties_text() const {
-    std::string text;
-    for (const auto& [name, value] : properties_) {
-      text += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", escaped(name), escaped(value));
+  void write(pugi::xml_node parent) const {
+    pugi::xml_node suite = parent.append_child("testsuite");
+    set(suite, "name", name);
+    counts().write(suite);
+    set(suite, "time", fmt::format("{}", time_s));
+    pugi::xml_node list;
+    for (const auto& [key, value] : properties) {
+      if (value.empty()) continue;
+      if (!list) list = suite.append_child("properties");
+      pugi::xml_node property = list.append_child("property");
+      set(property, "name", key);
+      set(property, "value", value);
     }
-    return text.empty() ? "" : "    <properties>\n" + text + "    </properties>\n";
+    for (const Case& c : cases) {
+      pugi::xml_node node = suite.append_child("testcase");
+      set(node, "classname", name);
+      set(node, "name", c.name);
+      set(node, "time", fmt::format("{}", &c == &cases.front() ? time_s : 0.0));
+      if (!c.wrong.empty()) set(node.append_child(c.wrong.c_str()), "message", c.message);
+      node.append_child("system-out").text().set(printable(c.facts).c_str());
+    }
   }
-
-  std::string name_;
-  double time_s_;
-  std::vector<std::pair<std::string, std::string>> properties_;
-  int tests_ = 0, failures_ = 0, errors_ = 0, skipped_ = 0;
-  std::string cases_;
 };
+
+Case flight_case(const FlightRecord& record, const std::string& because, const std::string& again) {
+  Case flight{.name = "flight", .facts = fmt::format("{}{}\n{}", outcome_words(record), because, again)};
+  switch (verdict_of(record)) {
+    case Verdict::not_flown:
+      flight.wrong = record.status == FlightRecord::Status::failed ? "error" : "skipped";
+      flight.message =
+          record.status == FlightRecord::Status::failed ? record.cause : "not flown: the campaign was interrupted";
+      break;
+    case Verdict::fault:
+      flight.wrong = "error";
+      flight.message = record.result->flight.cause;
+      break;
+    case Verdict::unchecked:
+      flight.wrong = "skipped";
+      flight.message = kNoChecks;
+      break;
+    case Verdict::passed:
+    case Verdict::failed:
+      break;
+  }
+  return flight;
+}
 
 Suite flight_suite(const FlightRecord& record, bool binding) {
-  const bool flown = record.status == Status::flown;
-  Suite suite(record.order.id, flown ? record.result.value("wall_s", 0.0) : 0.0);
   const std::string again = "again: " + rerun_command(record.order);
-  const std::string cause = flown ? record.result.value("cause", "") : "";
+  const std::string cause = record.result ? record.result->flight.cause : "";
   const std::string because = cause.empty() ? "" : fmt::format(" ({})", cause);
-  Case flight{.name = "flight", .facts = fmt::format("{}{}\n{}", outcome_words(record), because, again)};
-  if (record.status == Status::failed) {
-    flight.wrong = "error";
-    flight.message = record.cause;
-  } else if (record.status == Status::missing) {
-    flight.wrong = "skipped";
-    flight.message = "not flown: the campaign was interrupted";
-  } else if (record.result.at("outcome") == "fault") {
-    flight.wrong = "error";
-    flight.message = cause;
-  } else if (unchecked(record)) {
-    flight.wrong = "skipped";
-    flight.message = kNoChecks;
-  }
-  suite.set("build", build_of(record));
-  suite.set("truth_used", fmt::format("{}", fmt::join(truth_used(record), "; ")));
-  suite.add(flight);
-  if (!flown) return suite;
-  for (const auto& check : record.result.at("checks")) {
-    const std::string unit = check.at("unit").get<std::string>();
-    const std::string moment = check.contains("t_s") && check["t_s"].is_number()
-                                   ? fmt::format(" at {:.2f} s", check["t_s"].get<double>())
-                                   : "";
-    const std::string measured = fmt::format("{} {}{}, must be {} {} {}", number_words(check.at("value")), unit, moment,
-                                             check.value("must", "<="), number_words(check.at("limit")), unit);
-    Case one{.name = check.at("name").get<std::string>(), .facts = measured + "\n" + again};
-    if (!check.at("passed").get<bool>()) {
+  Suite suite{.name = record.order.id, .time_s = record.result ? record.result->flight.wall_s : 0.0};
+  suite.properties = {{"build", build_of(record)},
+                      {"truth_used", fmt::format("{}", fmt::join(truth_used(record), "; "))}};
+  suite.cases.push_back(flight_case(record, because, again));
+  if (!record.result) return suite;
+  for (const CheckResult& check : record.result->flight.checks) {
+    const std::string moment = check.t_s ? fmt::format(" at {:.2f} s", *check.t_s) : "";
+    const std::string measured = fmt::format("{} {}{}, must be {} {} {}", number_words(check.value), check.unit, moment,
+                                             check.must, number_words(check.limit), check.unit);
+    Case one{.name = check.name, .facts = measured + "\n" + again};
+    if (!check.passed) {
       one.wrong = binding ? "failure" : "skipped";
       one.message = measured + because + (binding ? "" : "; fails, which counts over the seeds");
     }
-    suite.add(one);
+    suite.cases.push_back(one);
   }
   return suite;
 }
@@ -147,28 +147,28 @@ std::string junit_text(const std::vector<FlightRecord>& records, const std::vect
   std::vector<Suite> suites;
   for (const FlightRecord& record : records) suites.push_back(flight_suite(record, verdicts.empty()));
   if (!verdicts.empty()) {
-    Suite& over_seeds = suites.emplace_back("over the seeds", 0.0);
-    over_seeds.set("build", std::string(build_identity()));
+    Suite& over_seeds = suites.emplace_back(Suite{.name = "over the seeds"});
+    over_seeds.properties = {{"build", std::string(build_identity())}};
     for (const GroupVerdict& verdict : verdicts) {
-      over_seeds.add({.name = verdict.check + " " + verdict.group,
-                      .facts = verdict.words,
-                      .wrong = verdict.passed ? "" : "failure",
-                      .message = verdict.words});
+      over_seeds.cases.push_back({.name = verdict.check + " " + verdict.group,
+                                  .facts = verdict.words,
+                                  .wrong = verdict.passed ? "" : "failure",
+                                  .message = verdict.words});
     }
   }
-  int tests = 0, failures = 0, errors = 0, skipped = 0;
-  std::string body;
-  for (const Suite& suite : suites) {
-    tests += suite.tests();
-    failures += suite.failures();
-    errors += suite.errors();
-    skipped += suite.skipped();
-    body += suite.text();
-  }
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hedgehop\" tests=\"{}\" failures=\"{}\" "
-      "errors=\"{}\" skipped=\"{}\">\n{}</testsuites>\n",
-      tests, failures, errors, skipped, body);
+  CaseCounts all;
+  for (const Suite& suite : suites) all.add(suite.counts());
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  set(declaration, "version", "1.0");
+  set(declaration, "encoding", "UTF-8");
+  pugi::xml_node root = document.append_child("testsuites");
+  set(root, "name", "hedgehop");
+  all.write(root);
+  for (const Suite& suite : suites) suite.write(root);
+  std::ostringstream text;
+  document.save(text, "  ", pugi::format_default, pugi::encoding_utf8);
+  return text.str();
 }
 
 }  // namespace hedgehop::sim

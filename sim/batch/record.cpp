@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
 
+#include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
-#include "sim/record/run_record.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 
@@ -54,30 +52,19 @@ std::string_view to_string(FlightRecord::Status status) {
   return "";
 }
 
-bool passed(const FlightRecord& record) {
-  if (record.status != FlightRecord::Status::flown || record.result.at("outcome") == "fault") return false;
-  const auto& checks = record.result.at("checks");
-  return !checks.empty() &&
-         std::ranges::all_of(checks, [](const auto& c) { return c.at("passed").template get<bool>(); });
-}
-
-bool unchecked(const FlightRecord& record) {
-  return record.status == FlightRecord::Status::flown && record.result.at("outcome") != "fault" &&
-         record.result.at("checks").empty();
+Verdict verdict_of(const FlightRecord& record) {
+  return record.status == FlightRecord::Status::flown ? verdict_of(record.result->flight) : Verdict::not_flown;
 }
 
 std::string outcome_words(const FlightRecord& record) {
-  if (record.status == FlightRecord::Status::flown) return record.result.at("outcome").get<std::string>();
-  return std::string(to_string(record.status));
+  const bool flown = record.status == FlightRecord::Status::flown;
+  return std::string(flown ? to_string(record.result->flight.outcome) : to_string(record.status));
 }
 
-std::string build_of(const FlightRecord& record) {
-  return record.result.is_object() ? record.result.value("build", "") : "";
-}
+std::string build_of(const FlightRecord& record) { return record.result ? record.result->info.build : ""; }
 
 std::vector<std::string> truth_used(const FlightRecord& record) {
-  if (!record.result.is_object()) return {};
-  return record.result.value("truth_used", std::vector<std::string>{});
+  return record.result ? record.result->flight.truth_used : std::vector<std::string>();
 }
 
 std::string truth_words(const std::vector<FlightRecord>& records) {
@@ -105,21 +92,19 @@ std::string several_builds_words(const std::vector<FlightRecord>& records) {
   return fmt::format("Flights of {} builds: {}\n", builds.size(), fmt::join(builds, ", "));
 }
 
-std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
-                                                     bool other_builds) {
+std::optional<RunResult> result_left_by(const Order& order, const std::filesystem::path& folder, bool other_builds) {
   std::error_code ignored;
   if (!std::filesystem::exists(folder / "result.json", ignored)) return {};
   try {
     if (read_file_whole(folder / "scenario.yaml") != order.scenario_yaml) return {};
-    nlohmann::ordered_json result = read_result(folder / "result.json");
-    if (!other_builds && result.value("build", "") != build_identity()) return {};
-    if (result.value("seed", uint64_t{0}) != order.seed) return {};
-    if (result.value("inputs", decltype(order.inputs){}) != order.inputs) return {};
+    RunResult result = read_result(folder / "result.json");
+    const bool same_build = result.info.build == build_identity();
+    if (!(same_build || other_builds) || result.info.seed != order.seed || result.info.inputs != order.inputs)
+      return {};
     return result;
-  } catch (const nlohmann::json::exception&) {
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error&) {  // not a whole result of this version
+    return {};
   }
-  return {};
 }
 
 }  // namespace hedgehop::sim

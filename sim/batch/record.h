@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "sim/flight/result_io.h"
 #include "sim/scenario/scenario.h"
 
 /// Many flights: batches and sweeps, each flight in a process of its own.
@@ -47,16 +47,13 @@ struct FlightRecord {
   };
   Order order;
   Status status = Status::missing;
-  std::string cause;              ///< of a failure, one line
-  nlohmann::ordered_json result;  ///< result.json of a flight that was flown, else null
+  std::string cause;                ///< of a failure, one line
+  std::optional<RunResult> result;  ///< of a flight that was flown
 };
 std::string_view to_string(FlightRecord::Status status);
 
-/// Whether it was flown, without a fault, has checks, and all hold.
-bool passed(const FlightRecord& record);
-
-/// Whether it was flown, without a fault, and nothing was asked of it: it neither passed nor failed.
-bool unchecked(const FlightRecord& record);
+/// The verdict on its result; Verdict::not_flown without one.
+Verdict verdict_of(const FlightRecord& record);
 inline constexpr std::string_view kNoChecks = "no checks";
 
 /// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
@@ -80,7 +77,6 @@ std::string several_builds_words(const std::vector<FlightRecord>& records);
 /// The result that a flight of this very order left in its folder: same resolved scenario, seed, input files and build,
 /// and whole. None for anything else, so that it is flown (again).
 /// @param folder  of the flight. @param other_builds  whether a result of another build will do.
-std::optional<nlohmann::ordered_json> result_left_by(const Order& order, const std::filesystem::path& folder,
-                                                     bool other_builds);
+std::optional<RunResult> result_left_by(const Order& order, const std::filesystem::path& folder, bool other_builds);
 
 }  // namespace hedgehop::sim

@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <list>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -23,7 +22,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kLongestTail = 4096;
+constexpr size_t kMaxTailBytes = 4096;
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -44,7 +43,8 @@ int spawn(const std::vector<std::string>& command, const sigset_t& mask, int err
   posix_spawn_file_actions_adddup2(&files, error_end, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // A group of its own: a Ctrl-C reaches the campaign alone, and a kill reaches whatever the worker has started.
+  // A group of its own: a Ctrl-C reaches the campaign alone, and a kill reaches
+  // whatever the worker has started.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setsigmask(&attributes, &mask);
@@ -56,31 +56,6 @@ int spawn(const std::vector<std::string>& command, const sigset_t& mask, int err
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   return error;
-}
-
-struct Running {
-  size_t job;
-  Worker worker;
-};
-
-double left_s(const Worker& worker, double limit_s) {
-  return limit_s - std::chrono::duration<double>(Worker::Clock::now() - worker.started()).count();
-}
-
-/// Waits until something happens to a worker, its time is over, or a signal comes.
-void wait(const std::list<Running>& running, double limit_s, const Interruption& interruption) {
-  std::vector<pollfd> watched{{.fd = interruption.descriptor(), .events = POLLIN, .revents = 0}};
-  double timeout_s = -1.0;
-  for (const Running& r : running) {
-    watched.push_back({.fd = r.worker.process_descriptor(), .events = POLLIN, .revents = 0});
-    watched.push_back({.fd = r.worker.error_descriptor(), .events = POLLIN, .revents = 0});  // poll skips a -1
-    if (limit_s <= 0.0 || r.worker.killed()) continue;
-    const double left = std::max(0.0, left_s(r.worker, limit_s));
-    timeout_s = timeout_s < 0.0 ? left : std::min(timeout_s, left);
-  }
-  constexpr double kLongestS = 1e6;  // what poll's int holds in ms
-  const int timeout_ms = timeout_s < 0.0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(timeout_s, kLongestS)));
-  ::poll(watched.data(), watched.size(), timeout_ms);
 }
 
 bool has_ended(const Worker& worker) {
@@ -147,7 +122,8 @@ Worker::Worker(const std::vector<std::string>& command, const sigset_t& mask) : 
     ::close(error_);
     throw std::system_error(error, std::generic_category(), command.at(0));
   }
-  process_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));  // closed on exec; glibc 2.36 declares it for C only
+  process_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_,
+                                        0));  // closed on exec; glibc 2.36 declares it for C only
   if (process_ < 0) {
     const int cause = errno;
     kill(WorkerEnd::Kind::stopped);
@@ -181,7 +157,7 @@ void Worker::take_errors() {
       return;
     }
     tail_.append(buffer.data(), static_cast<size_t>(got));
-    if (tail_.size() > kLongestTail) tail_.erase(0, tail_.size() - kLongestTail);
+    if (tail_.size() > kMaxTailBytes) tail_.erase(0, tail_.size() - kMaxTailBytes);
   }
 }
 
@@ -195,7 +171,8 @@ WorkerEnd Worker::join() {
   siginfo_t info{};
   while (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
-  ::kill(-pid_, SIGKILL);  // what it may have left behind; its own number is not free before the next call
+  ::kill(-pid_, SIGKILL);  // what it may have left behind; its own number is not
+                           // free before the next call
   int status = 0;
   rusage usage{};
   while (::wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
@@ -212,42 +189,58 @@ WorkerEnd Worker::join() {
   return end;
 }
 
-bool WorkerPool::run(size_t jobs, const std::function<std::vector<std::string>(size_t)>& command,
-                     Interruption& interruption, const std::function<void(size_t, const WorkerEnd&)>& ended) const {
-  std::list<Running> running;
-  size_t next = 0;
-  while (next < jobs || !running.empty()) {
-    const bool stop = interruption.came();
+void WorkerPool::start(size_t job, const std::vector<std::string>& command) {
+  try {
+    running_.push_back({job, Worker(command, interruption_.mask_before())});
+  } catch (const std::system_error& error) {
+    ended_.push_back({job, {.kind = WorkerEnd::Kind::unstarted, .last_line = error.what()}});
+  }
+}
+
+double WorkerPool::left_s(const Worker& worker) const {
+  return limit_s_ - std::chrono::duration<double>(Worker::Clock::now() - worker.started()).count();
+}
+
+/// Waits until a worker ends or writes to standard error, its time is over, or
+/// a signal comes.
+void WorkerPool::wait() const {
+  std::vector<pollfd> watched{{.fd = interruption_.descriptor(), .events = POLLIN, .revents = 0}};
+  double timeout_s = -1.0;
+  for (const Running& r : running_) {
+    watched.push_back({.fd = r.worker.process_descriptor(), .events = POLLIN, .revents = 0});
+    watched.push_back({.fd = r.worker.error_descriptor(), .events = POLLIN, .revents = 0});  // poll skips a -1
+    if (limit_s_ <= 0.0 || r.worker.killed()) continue;
+    const double left = std::max(0.0, left_s(r.worker));
+    timeout_s = timeout_s < 0.0 ? left : std::min(timeout_s, left);
+  }
+  constexpr double kMaxTimeoutS = 1e6;  // within poll's int in ms
+  const int timeout_ms = timeout_s < 0.0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(timeout_s, kMaxTimeoutS)));
+  ::poll(watched.data(), watched.size(), timeout_ms);
+}
+
+std::optional<JobEnd> WorkerPool::next() {
+  while (ended_.empty() && !running_.empty()) {
+    const bool stop = interruption_.came();
     if (stop) {
-      for (Running& r : running) r.worker.kill(WorkerEnd::Kind::stopped);
-      next = jobs;
+      for (Running& r : running_) r.worker.kill(WorkerEnd::Kind::stopped);
+    } else {
+      wait();
     }
-    while (next < jobs && running.size() < workers) {
-      const size_t job = next++;
-      if (wanted && !wanted(job)) continue;
-      try {
-        running.push_back({job, Worker(command(job), interruption.mask_before())});
-      } catch (const std::system_error& error) {
-        ended(job, {.kind = WorkerEnd::Kind::unstarted, .last_line = error.what()});
-      }
-    }
-    if (running.empty()) continue;
-    if (!stop) wait(running, limit_s, interruption);
-    for (auto r = running.begin(); r != running.end();) {
+    for (auto r = running_.begin(); r != running_.end();) {
       r->worker.take_errors();
-      if (limit_s > 0.0 && left_s(r->worker, limit_s) <= 0.0) r->worker.kill(WorkerEnd::Kind::overdue);
+      if (limit_s_ > 0.0 && left_s(r->worker) <= 0.0) r->worker.kill(WorkerEnd::Kind::overdue);
       if (!stop && !has_ended(r->worker)) {
         ++r;
         continue;
       }
-      ended(r->job, r->worker.join());
-      r = running.erase(r);
-    }
-    for (Running& r : running) {
-      if (wanted && !wanted(r.job)) r.worker.kill(WorkerEnd::Kind::stopped);
+      ended_.push_back({r->job, r->worker.join()});
+      r = running_.erase(r);
     }
   }
-  return !interruption.came();
+  if (ended_.empty()) return {};
+  JobEnd end = std::move(ended_.front());
+  ended_.pop_front();
+  return end;
 }
 
 }  // namespace hedgehop::sim

@@ -3,16 +3,17 @@
 #include <sys/types.h>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <filesystem>
-#include <functional>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hedgehop::sim {
 
-/// While it exists, SIGINT and SIGTERM do not end the process but make a descriptor readable. One at a time, created
-/// before threads.
+/// While it exists, SIGINT and SIGTERM do not end the process but make a
+/// descriptor readable. One at a time, created before threads.
 class Interruption {
  public:
   /// Throws std::runtime_error when the descriptor cannot be created.
@@ -47,21 +48,24 @@ struct WorkerEnd {
   };
   Kind kind = Kind::exited;
   int code = 0;
-  std::string last_line;  ///< last line that is not empty of its standard error, at most 4 kB of it
+  std::string last_line;  ///< last line that is not empty of its standard error,
+                          ///< at most 4 kB of it
   double wall_s = 0.0, cpu_s = 0.0;
 };
 
-/// "exit status 3: cannot write x", "killed by SIGSEGV (Segmentation fault)", "killed: over its limit of 10 s".
+/// "exit status 3: cannot write x", "killed by SIGSEGV (Segmentation fault)",
+/// "killed: over its limit of 10 s".
 /// @param limit_s  the limit it ran under, > 0, for the message.
 std::string cause_words(const WorkerEnd& end, double limit_s);
 
-/// A child process in a process group of its own, its standard output thrown away, its standard error read.
+/// A child process in a process group of its own, its standard output thrown
+/// away, its standard error read.
 class Worker {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Starts `command` (an absolute path and its arguments) with the given signal mask.
-  /// Throws std::system_error when no process can be made.
+  /// Starts `command` (an absolute path and its arguments) with the given
+  /// signal mask. Throws std::system_error when no process can be made.
   Worker(const std::vector<std::string>& command, const sigset_t& mask);
   ~Worker();  ///< kills what still runs
   Worker(Worker&& other) noexcept;
@@ -77,7 +81,8 @@ class Worker {
   void take_errors();
   /// Ends the whole process group; `why` is how the end will be reported.
   void kill(WorkerEnd::Kind why);
-  /// Waits for the end and returns it. Call it once process_descriptor() is readable.
+  /// Waits for the end and returns it. Call it once process_descriptor() is
+  /// readable.
   WorkerEnd join();
 
  private:
@@ -88,19 +93,49 @@ class Worker {
   std::string tail_;
 };
 
-/// Several worker processes at a time, one for each job, in the order of the jobs.
-struct WorkerPool {
-  size_t workers = 1;    ///< processes at a time, >= 1
-  double limit_s = 0.0;  ///< longest wall time of one process, then it is killed; 0 for no limit
-  /// Whether a job still matters, looked at before it starts and whenever another has ended: one that no longer does is
-  /// not started, or is killed and reported as stopped. None: all do.
-  std::function<bool(size_t job)> wanted = {};
+/// The end of the process of a job.
+struct JobEnd {
+  size_t job = 0;
+  WorkerEnd end;
+};
 
-  /// Runs a process for each job and calls `ended` as each ends. When the interruption comes, all are killed, reported
-  /// as stopped, and no other is started. @param command  of a job: absolute path and arguments.
-  /// @return false when it was interrupted. Waits in poll(2), never busily.
-  bool run(size_t jobs, const std::function<std::vector<std::string>(size_t job)>& command, Interruption& interruption,
-           const std::function<void(size_t job, const WorkerEnd&)>& ended) const;
+/// Several worker processes at a time, one per job. After an interruption, all
+/// are killed and no other starts.
+class WorkerPool {
+ public:
+  /// @param workers  processes at a time, >= 1. @param limit_s  maximum wall
+  /// time of one process, then it is killed; 0 for no limit.
+  WorkerPool(size_t workers, double limit_s, Interruption& interruption)
+      : workers_(workers), limit_s_(limit_s), interruption_(interruption) {}
+
+  /// Whether another process may start.
+  bool has_room() const { return running_.size() < workers_ && !interruption_.came(); }
+  /// Starts a process. If it cannot be started, next() returns its end. @param
+  /// command  absolute path and arguments.
+  void start(size_t job, const std::vector<std::string>& command);
+  /// Kills the processes of some jobs; next() returns their ends as stopped.
+  template <class IsStopped>
+  void stop_if(IsStopped is_stopped) {
+    for (Running& running : running_) {
+      if (is_stopped(running.job)) running.worker.kill(WorkerEnd::Kind::stopped);
+    }
+  }
+  /// Waits for the end of one process, in poll(2); none if no process runs.
+  std::optional<JobEnd> next();
+
+ private:
+  struct Running {
+    size_t job;
+    Worker worker;
+  };
+  void wait() const;
+  double left_s(const Worker& worker) const;
+
+  size_t workers_;
+  double limit_s_;
+  Interruption& interruption_;
+  std::list<Running> running_;
+  std::deque<JobEnd> ended_;
 };
 
 }  // namespace hedgehop::sim

@@ -4,20 +4,20 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/commands.h"
-#include "sim/record/csv_table.h"
-#include "sim/record/run_record.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
+#include "sim/flight/result_io.h"
+#include "sim/record/table.h"
 #include "sim/scenario/reference_path.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
-constexpr double kStepS = 0.1;         // a vehicle at 10 m/s moves a meter
-constexpr size_t kMostPoints = 2'000;  // Frechet distance and time warping compare every pair
+constexpr double kStepS = 0.1;        // a vehicle at 10 m/s moves a meter
+constexpr size_t kMaxPoints = 2'000;  // Frechet distance and time warping compare every pair
 
 std::vector<TimedPoint> flown_path(const std::filesystem::path& run_folder) {
-  const CsvTable table(run_folder / "trajectory.csv");
+  const Table table(run_folder / "trajectory.csv");
   const auto t_s = table.numbers("t_s"), north_m = table.numbers("north_m"), east_m = table.numbers("east_m"),
              down_m = table.numbers("down_m");
   std::vector<TimedPoint> path;
@@ -37,12 +37,11 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
 }
 
 /// Returns why a flight cannot be a reference; empty if it can. Ignores path_tolerance, whose reference is replaced.
-std::string failure_of(const nlohmann::ordered_json& result) {
-  const std::string outcome = result.value("outcome", "");
-  if (outcome == "collided" || outcome == "fault") return outcome;
-  for (const auto& check : result.value("checks", nlohmann::ordered_json::array())) {
-    const std::string name = check.value("name", "");
-    if (name != PathToleranceCheck::kName && !check.value("passed", false)) return name;
+std::string failure_of(const FlightResult& result) {
+  if (result.outcome == Outcome::collided || result.outcome == Outcome::fault)
+    return std::string(to_string(result.outcome));
+  for (const CheckResult& check : result.checks) {
+    if (check.name != PathToleranceCheck::kName && !check.passed) return check.name;
   }
   return "";
 }
@@ -54,7 +53,7 @@ int bless(const BlessOptions& options) {
     throw InputError("--reason: give in one line why this path is the reference");
   }
   const std::string folder = options.folder.string();
-  nlohmann::ordered_json result;
+  RunResult result;
   std::vector<TimedPoint> flown;
   try {
     result = read_result(options.folder / "result.json");
@@ -63,17 +62,17 @@ int bless(const BlessOptions& options) {
     throw InputError(fmt::format("{}: no whole run: {}", folder, error.what()));
   }
   if (flown.empty()) throw InputError(fmt::format("{}: the flight has no path", folder));
-  const std::string failure = failure_of(result);
+  const std::string failure = failure_of(result.flight);
   if (!failure.empty() && !options.force) {
     throw InputError(fmt::format("{}: the flight failed ({}); --force blesses it all the same", folder, failure));
   }
   const double duration_s = flown.back().t_s - flown.front().t_s;
   ReferencePath reference{.reason = options.reason,
-                          .version = result.value("version", ""),
-                          .seed = result.value("seed", uint64_t{0}),
-                          .step_s = kStepS * std::max(1.0, std::ceil(duration_s / (kStepS * kMostPoints)))};
+                          .version = result.info.version,
+                          .seed = result.info.seed,
+                          .step_s = kStepS * std::max(1.0, std::ceil(duration_s / (kStepS * kMaxPoints)))};
   reference.points = thinned(flown, reference.step_s);
-  const std::filesystem::path file = reference_file(options.folder, result.value("scenario_file", ""));
+  const std::filesystem::path file = reference_file(options.folder, result.info.scenario_file);
   if (std::filesystem::exists(file) && !options.force && !options.dry_run) {
     throw InputError(fmt::format("{}: is there already; --force replaces it", file.string()));
   }

@@ -11,14 +11,15 @@
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
 #include "sim/config/config_outline.h"
 #include "sim/config/outline_texts.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/shrink.h"
 #include "sim/flight/build.h"
 #include "sim/record/run_record.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim::cli {
@@ -68,14 +69,14 @@ Scenario branched(const Scenario& base, const BranchOptions& options, const fs::
 
 /// A name for the branch's files: "at-32.5-avoidance.speed=1".
 std::string name_of(const BranchOptions& options) {
-  constexpr size_t kMostLetters = 120;
+  constexpr size_t kMaxLetters = 120;
   std::string name = fmt::format("at-{:g}", options.at_s);
   for (const std::string& text : options.overrides) name += "-" + text;
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::string_view("-_.=").find(c) == std::string_view::npos)
       c = '_';
   }
-  return name.substr(0, kMostLetters);
+  return name.substr(0, kMaxLetters);
 }
 
 /// The scenarios of the folder, this branch's among them; a folder holds the branches of one flight.
@@ -118,10 +119,8 @@ std::string rows_before(const fs::path& flight, double t_s) {
 }
 
 void require_equal_before(const FlightRecord& unbroken, const FlightRecord& branch, const fs::path& out, double at_s) {
-  const bool both_flown =
-      unbroken.status == FlightRecord::Status::flown && branch.status == FlightRecord::Status::flown;
-  if (!both_flown) return;
-  const double end_s = unbroken.result.at("flight_time_s").get<double>();
+  if (!unbroken.result || !branch.result) return;
+  const double end_s = unbroken.result->flight.flight_time_s;
   if (end_s < at_s) throw InputError(fmt::format("--at {:g}: the flight has ended at {:g} s", at_s, end_s));
   if (rows_before(out / unbroken.order.id, at_s) != rows_before(out / branch.order.id, at_s)) {
     throw std::runtime_error(fmt::format("{}: differs from the unbroken flight before {:g} s", branch.order.id, at_s));
@@ -131,12 +130,10 @@ void require_equal_before(const FlightRecord& unbroken, const FlightRecord& bran
 
 int conclude(const BatchOutcome& branches, const fs::path& out) {
   write_file_whole(out / "batch.json", batch_json(branches, std::string(version())));
-  write_file_whole(out / "batch.csv", csv_text(flight_table(branches.records)));
+  write_file_whole(out / "batch.csv", flight_table(branches.records).csv());
   fmt::print("{}", summary_text(branches));
   write_campaign_page(out);
-  return std::ranges::all_of(branches.records, [](const FlightRecord& r) { return passed(r) || unchecked(r); })
-             ? 0
-             : kFails;
+  return std::ranges::all_of(branches.records, [](const FlightRecord& r) { return holds(verdict_of(r)); }) ? 0 : kFails;
 }
 
 }  // namespace
@@ -145,7 +142,7 @@ int branch(const BranchOptions& options) {
   const bool is_run = fs::is_directory(options.source);
   const fs::path file = is_run ? options.source / "scenario.yaml" : options.source;
   if (is_run) {
-    const double end_s = read_result(options.source / "result.json").value("flight_time_s", 0.0);
+    const double end_s = read_result(options.source / "result.json").flight.flight_time_s;
     if (end_s < options.at_s)
       throw InputError(fmt::format("--at {:g}: the flight has ended at {:g} s", options.at_s, end_s));
   }
@@ -161,9 +158,7 @@ int branch(const BranchOptions& options) {
                        .out = out,
                        .workers = std::max(1u, std::thread::hardware_concurrency()),
                        .reports = true};
-  const auto records = fly_orders(orders, fly, Reuse::all, interruption, [&](const FlightRecord& record, bool reused) {
-    progress.add(record.order.id, outcome_words(record), record.status == FlightRecord::Status::flown, reused);
-  });
+  const auto records = fly_shown(orders, fly, interruption, progress);
   progress.close();
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   const auto flown = std::ranges::find(records, "flights/" + name, [](const FlightRecord& r) { return r.order.id; });

@@ -1,7 +1,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {

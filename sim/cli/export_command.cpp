@@ -25,7 +25,7 @@ std::string hash_of_run(const std::filesystem::path& folder) {
     }
   }
   try {
-    return read_result(folder / "result.json").at("trajectory_hash");
+    return read_result(folder / "result.json").flight.trajectory_hash;
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("{}: no whole run: {}", folder.string(), error.what()));
   }

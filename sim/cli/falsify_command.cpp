@@ -5,13 +5,14 @@
 
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/fly_batch.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/counterexample.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/whole_file.h"
 #include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim::cli {
@@ -50,7 +51,7 @@ class FalsifyRun {
     write_file_whole(out_ / "falsify.json", falsify_json(search_, {}, {}));  // whose flights these are
     const FalsifyResult result = falsify(search_, [&](const std::vector<Order>& orders) { return fly(orders, false); });
     const Table table = falsify_table(search_, result);
-    write_file_whole(out_ / "falsify.csv", csv_text(table));
+    write_file_whole(out_ / "falsify.csv", table.csv());
     write_sqlite(out_ / "falsify.sqlite", table);
     write_file_whole(out_ / "falsify.json", falsify_json(search_, result, {}));
     std::vector<Counterexample> found;
@@ -77,10 +78,7 @@ class FalsifyRun {
   std::optional<std::vector<FlightRecord>> fly(const std::vector<Order>& orders, bool reports) {
     FlyOptions options = fly_;
     options.reports = reports;
-    auto records = fly_orders(orders, options, Reuse::all, interruption_, [&](const FlightRecord& record, bool reused) {
-      const bool ok = record.status == FlightRecord::Status::flown;
-      progress_->add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
-    });
+    auto records = fly_shown(orders, options, interruption_, *progress_);
     if (interruption_.signal() != 0) return std::nullopt;
     return records;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/junit.h"
@@ -12,10 +13,10 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
 #include "sim/pages/leaderboard_page.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -39,17 +40,15 @@ std::vector<GroupVerdict> all_verdicts(const BatchOutcome& outcome) {
 }
 
 /// Which flights a stopping rule has counted, as a column.
-std::vector<ExtraColumn> counted_column(const BatchOutcome& outcome, const std::optional<SequentialCount>& count) {
+std::vector<Table::Column> counted_column(const BatchOutcome& outcome, const std::optional<SequentialCount>& count) {
   if (!count) return {};
-  ExtraColumn column{.name = "counted", .cells = {}};
-  for (const FlightRecord& record : outcome.records) {
-    column.cells.emplace_back(static_cast<int64_t>(count->counted(record.order)));
-  }
-  return {column};
+  std::vector<double> counted;
+  for (const FlightRecord& record : outcome.records) counted.push_back(count->counted(record.order) ? 1.0 : 0.0);
+  return {{.name = "counted", .values = std::move(counted), .whole = true}};
 }
 
 EveryWrite write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
-                       const BatchOutcome& outcome, const std::vector<ExtraColumn>& columns) {
+                       const BatchOutcome& outcome, const std::vector<Table::Column>& columns) {
   EveryWrite files;
   const auto attempt = [&files](const std::filesystem::path& file, const std::string& text) {
     files.attempt([&] {
@@ -58,7 +57,7 @@ EveryWrite write_files(const std::filesystem::path& out, const std::filesystem::
     });
   };
   attempt(out / "batch.json", batch_json(outcome, std::string(version())));
-  attempt(out / "batch.csv", csv_text(flight_table(outcome.records, columns)));
+  attempt(out / "batch.csv", flight_table(outcome.records, columns).csv());
   if (!junit.empty()) attempt(junit, junit_text(outcome.records, all_verdicts(outcome)));
   return files;
 }
@@ -78,30 +77,55 @@ std::string write_matrix(const std::filesystem::path& out, const std::optional<L
   return "\n" + text;
 }
 
-int exit_status(const BatchOutcome& outcome) {
-  const auto any = [&](Standing standing) {
-    return std::ranges::find(outcome.sequential, standing, &SequentialResult::standing) != outcome.sequential.end();
-  };
-  if (any(Standing::refuted)) return kFails;
-  if (any(Standing::undecided)) return kUndecided;
-  if (!outcome.sequential.empty()) return 0;
-  if (!outcome.verdicts.empty()) return std::ranges::all_of(outcome.verdicts, &GroupVerdict::passed) ? 0 : kFails;
-  const auto holds = [](const FlightRecord& r) { return passed(r) || unchecked(r); };
-  return std::ranges::all_of(outcome.records, holds) ? 0 : kFails;
+int exit_status(Standing verdict) {
+  switch (verdict) {
+    case Standing::shown:
+      return 0;
+    case Standing::undecided:
+      return kUndecided;
+    case Standing::refuted:
+      break;
+  }
+  return kFails;
 }
 
-OnRecord show_on(CampaignProgress& progress, std::optional<SequentialCount>& count) {
-  return [&](const FlightRecord& record, bool reused) {
-    if (count) count->ended(record);
-    const bool ok = passed(record) || unchecked(record);
-    const std::string words = unchecked(record) ? fmt::format("{}, {}", outcome_words(record), kNoChecks)
-                              : ok              ? outcome_words(record)
-                                                : failure_words(record);
-    progress.add(record.order.id, words, ok, reused);
-  };
+void show(CampaignProgress& progress, const EndedFlight& ended) {
+  const Verdict verdict = verdict_of(ended.record);
+  const std::string words = verdict == Verdict::unchecked
+                                ? fmt::format("{}, {}", outcome_words(ended.record), kNoChecks)
+                            : verdict == Verdict::passed ? outcome_words(ended.record)
+                                                         : failure_words(ended.record);
+  progress.add(ended.record.order.id, words, holds(verdict), ended.reused);
+}
+
+/// Flies the orders, each group until the stopping rule has decided it.
+std::vector<FlightRecord> fly(const BatchRun& run, std::optional<SequentialCount>& count, Interruption& interruption) {
+  const std::vector<Order>& orders = run.batch.orders;
+  CampaignProgress progress(orders.size());
+  OrderFlights flights(orders, run.fly, run.reuse, interruption);
+  while (const std::optional<EndedFlight> ended = flights.next()) {
+    show(progress, *ended);
+    if (!count || !count->ended(ended->record)) continue;
+    for (const Order& order : orders) {
+      if (!count->wanted(order)) flights.drop(order);
+    }
+  }
+  progress.close();
+  return flights.take_records();
 }
 
 }  // namespace
+
+std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyOptions& options,
+                                    Interruption& interruption, CampaignProgress& progress) {
+  OrderFlights flights(orders, options, Reuse::all, interruption);
+  while (const std::optional<EndedFlight> ended = flights.next()) {
+    const bool flown = verdict_of(ended->record) != Verdict::not_flown;
+    progress.add(ended->record.order.id, flown ? outcome_words(ended->record) : failure_words(ended->record), flown,
+                 ended->reused);
+  }
+  return flights.take_records();
+}
 
 int fly_batch(BatchRun run) {
   require_writable(run.fly.out);
@@ -111,14 +135,9 @@ int fly_batch(BatchRun run) {
   if (run.rule) {
     run.batch.orders = seed_by_seed(run.batch.orders);
     count.emplace(*run.rule, run.batch.orders);
-    run.fly.wanted = [&count](const Order& order) { return count->wanted(order); };
   }
   Interruption interruption;
-  CampaignProgress progress(run.batch.orders.size());
-  auto records = fly_orders(run.batch.orders, run.fly, run.reuse, interruption, show_on(progress, count));
-  progress.close();
-
-  BatchOutcome outcome = conclude(std::move(records), count, run.fly.limit_s);
+  BatchOutcome outcome = conclude(fly(run, count, interruption), count, run.fly.limit_s);
   outcome.conduct = run.conduct;
   if (interruption.signal() == 0) outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
   EveryWrite files = write_files(run.fly.out, run.junit, outcome, counted_column(outcome, count));
@@ -136,7 +155,7 @@ int fly_batch(BatchRun run) {
   }
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   if (!run.batch.faults.empty()) return kBadInput;
-  return exit_status(outcome);
+  return exit_status(verdict_of(outcome));
 }
 
 }  // namespace hedgehop::sim::cli

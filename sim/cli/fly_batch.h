@@ -5,6 +5,7 @@
 
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/fly_orders.h"
+#include "sim/cli/progress.h"
 #include "sim/evidence/conduct.h"
 #include "sim/evidence/sequential_count.h"
 
@@ -21,6 +22,10 @@ struct BatchRun {
   std::filesystem::path junit;
   bool json = false;
 };
+
+/// Flies orders, reuses the results that are there, and shows each end. Orders that were interrupted are missing.
+std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyOptions& options,
+                                    Interruption& interruption, CampaignProgress& progress);
 
 /// Flies it, writes batch.json, batch.csv and the JUnit file, prints the results.
 /// @return the exit status: 0 holds, 1 fails, 2 a file is bad, 4 undecided, 128 and the signal's number when

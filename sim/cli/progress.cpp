@@ -72,8 +72,8 @@ void CampaignProgress::add(const std::string& name, const std::string& words, bo
     line_.show(fmt::format("{} flights{}", counts, left_words()));
     return;
   }
-  constexpr size_t kMostLines = 100;
-  const size_t every = std::max<size_t>(1, flights_ / kMostLines);
+  constexpr size_t kMaxLines = 100;
+  const size_t every = std::max<size_t>(1, flights_ / kMaxLines);
   if (passed && (reused || ended_ % every != 0) && ended_ != flights_) return;
   line_.show(fmt::format("{}: {} {}{}{}", counts, name, words, reused ? " (earlier)" : "", left_words()));
 }

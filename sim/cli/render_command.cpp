@@ -5,8 +5,8 @@
 
 #include "sim/cli/commands.h"
 #include "sim/cli/load.h"
+#include "sim/config/whole_file.h"
 #include "sim/record/image_file.h"
-#include "sim/record/whole_file.h"
 #include "sim/render/image_colors.h"
 #include "sim/render/renderer.h"
 #include "sim/simulation/simulation.h"

@@ -11,13 +11,14 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/fly_batch.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/reproduction_page.h"
-#include "sim/record/whole_file.h"
 
 #include "sim/reproduce/results_page.h"
 #include "sim/simulation/simulation.h"
@@ -74,11 +75,7 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
                        .other_builds = options.reuse_other_builds,
                        .workers = options.jobs,
                        .limit_s = options.limit_s};
-  auto records =
-      fly_orders(orders, fly, Reuse::all, interruption, [&progress](const FlightRecord& record, bool reused) {
-        const bool flown = record.status == FlightRecord::Status::flown;
-        progress.add(record.order.id, flown ? outcome_words(record) : failure_words(record), flown, reused);
-      });
+  auto records = fly_shown(orders, fly, interruption, progress);
   progress.close();
   return records;
 }
@@ -93,10 +90,11 @@ std::string short_renderer(const std::string& info) {
 
 /// Returns the renderers of all flights that were flown, then the packages with their versions.
 std::string packages_of(const std::vector<FlightRecord>& records) {
-  static const nlohmann::json::json_pointer kRenderer("/libraries/renderer");
   std::set<std::string> renderers;
   for (const FlightRecord& record : records) {
-    if (record.status == Status::flown) renderers.insert(short_renderer(record.result.value(kRenderer, "unknown")));
+    if (!record.result) continue;
+    const std::string& renderer = record.result->flight.libraries.renderer;
+    renderers.insert(short_renderer(renderer.empty() ? "unknown" : renderer));
   }
   return fmt::format("{}{}{}", fmt::join(renderers, ", "), renderers.empty() ? "" : ", ", package_versions());
 }

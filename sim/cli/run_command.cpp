@@ -14,12 +14,12 @@
 #include "sim/cli/load.h"
 #include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
+#include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/film.h"
 #include "sim/record/result_files.h"
-#include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
@@ -133,9 +133,7 @@ int run(const RunOptions& options) {
   } else {
     print_verdict(scenario, flight.result, out, has_report);
   }
-  bool all_hold = flight.result.outcome != Outcome::fault;
-  for (const CheckResult& check : flight.result.checks) all_hold = all_hold && check.passed;
-  return all_hold ? 0 : 1;
+  return holds(verdict_of(flight.result)) ? 0 : 1;
 }
 
 }  // namespace hedgehop::sim::cli

@@ -11,10 +11,11 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
-#include "sim/record/whole_file.h"
 #include "sim/sweep/optimize.h"
 #include "sim/sweep/sweep.h"
 
@@ -33,7 +34,7 @@ EveryWrite write_tables(const SweepRun& run, const SweepOrders& orders, const st
   const Table table = sweep_table(run.sweep, orders, records);
   files.attempt([&] {
     std::filesystem::create_directories(run.out);
-    write_file_whole(run.out / (run.name + ".csv"), csv_text(table));
+    write_file_whole(run.out / (run.name + ".csv"), table.csv());
   });
   files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), table); });
   if (run.options.junit.empty()) return files;
@@ -47,21 +48,23 @@ EveryWrite write_tables(const SweepRun& run, const SweepOrders& orders, const st
 /// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
   const EveryWrite files = write_tables(run, orders, records);
-  const auto count = [&](auto holds) { return std::ranges::count_if(records, holds); };
-  const auto has = [](FlightRecord::Status status) {
-    return [status](const FlightRecord& record) { return record.status == status; };
+  const auto of_status = [&](FlightRecord::Status status) {
+    return std::ranges::count(records, status, &FlightRecord::status);
   };
-  const auto without = count(unchecked);
+  const auto of_verdict = [&](Verdict verdict) {
+    return std::ranges::count_if(records, [&](const FlightRecord& record) { return verdict_of(record) == verdict; });
+  };
+  const auto without = of_verdict(Verdict::unchecked);
   const std::string no_checks = without > 0 ? fmt::format(", {} with {}", without, kNoChecks) : "";
   fmt::print("{}{}", several_builds_words(records), truth_words(records));
   fmt::print("{} flights: {} passed, {} failed a check{}, {} failed to fly, {} missing\n", records.size(),
-             count(passed), count(has(FlightRecord::Status::flown)) - count(passed) - without, no_checks,
-             count(has(FlightRecord::Status::failed)), count(has(FlightRecord::Status::missing)));
+             of_verdict(Verdict::passed), of_verdict(Verdict::failed) + of_verdict(Verdict::fault), no_checks,
+             of_status(FlightRecord::Status::failed), of_status(FlightRecord::Status::missing));
   if (files.well()) fmt::print("written: {}\n", (run.out / (run.name + ".csv")).string());
   if (files.well() && run.options.shard.empty()) write_campaign_page(run.out);
   print_failed(records);
   files.raise();
-  return std::ranges::all_of(records, [](const FlightRecord& r) { return passed(r) || unchecked(r); }) ? 0 : kFails;
+  return std::ranges::all_of(records, [](const FlightRecord& r) { return holds(verdict_of(r)); }) ? 0 : kFails;
 }
 
 FlyOptions fly_options(const SweepRun& run) {
@@ -72,17 +75,10 @@ FlyOptions fly_options(const SweepRun& run) {
           .limit_s = run.options.limit_s};
 }
 
-OnRecord show_on(CampaignProgress& progress) {
-  return [&progress](const FlightRecord& record, bool reused) {
-    const bool ok = record.status == FlightRecord::Status::flown;
-    progress.add(record.order.id, ok ? outcome_words(record) : failure_words(record), ok, reused);
-  };
-}
-
 int fly_all(const SweepRun& run, const SweepOrders& orders) {
   Interruption interruption;
   CampaignProgress progress(orders.orders.size());
-  const auto records = fly_orders(orders.orders, fly_options(run), Reuse::all, interruption, show_on(progress));
+  const auto records = fly_shown(orders.orders, fly_options(run), interruption, progress);
   progress.close();
   const int status = conclude(run, orders, records);
   return interruption.signal() != 0 ? kSignalled + interruption.signal() : status;
@@ -94,7 +90,7 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
   const FlyOptions options = fly_options(run);
   const FlyPoint fly = [&](const std::vector<Order>& orders) -> std::optional<std::vector<FlightRecord>> {
-    auto records = fly_orders(orders, options, Reuse::all, interruption, show_on(progress));
+    auto records = fly_shown(orders, options, interruption, progress);
     if (interruption.signal() != 0) return std::nullopt;
     return records;
   };

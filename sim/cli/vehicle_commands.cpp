@@ -19,9 +19,9 @@
 #include "sim/cli/notice.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/trim_data.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {
@@ -231,9 +231,9 @@ std::vector<double> speed_range(const std::string& text) {
     begin = end + 1;
   }
   if (numbers.size() == 1) return numbers;
-  constexpr double kMostSpeeds = 10000;
+  constexpr double kMaxSpeeds = 10000;
   if (numbers.size() != 3 || numbers[2] <= 0.0 || numbers[1] < numbers[0] ||
-      (numbers[1] - numbers[0]) / numbers[2] > kMostSpeeds) {
+      (numbers[1] - numbers[0]) / numbers[2] > kMaxSpeeds) {
     throw InputError(fmt::format("--speed {}: expected FROM:TO:STEP with TO above FROM and STEP above 0", text));
   }
   std::vector<double> speeds;

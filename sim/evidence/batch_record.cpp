@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sim/batch/statistics.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/flight/build.h"
-#include "sim/record/json_number.h"
+#include "sim/flight/json_number.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -31,22 +32,23 @@ Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
               {"failed", group.failed},
               {"missing", group.missing},
               {"no_checks", group.unchecked},
-              {"least_clearance_m", json_number(group.least_clearance_m)},
+              {"min_clearance_m", json_number(group.min_clearance_m)},
               {"median_clearance_m", json_number(group.median_clearance_m)},
               {"median_time_s", json_number(group.median_time_s)}};
 }
 
 Json flight_json(const FlightRecord& record) {
+  const Verdict verdict = verdict_of(record);
   return Json{{"id", record.order.id},
               {"group", record.order.group},
               {"scenario", record.order.scenario.string()},
               {"seed", record.order.seed},
               {"set", record.order.overrides},
               {"status", std::string(to_string(record.status))},
-              {"passed", unchecked(record) ? Json(nullptr) : Json(passed(record))},
+              {"passed", verdict == Verdict::unchecked ? Json(nullptr) : Json(verdict == Verdict::passed)},
               {"cause", record.cause},
               {"command", rerun_command(record.order)},
-              {"result", record.result}};
+              {"result", record.result ? to_json(record.result->info, record.result->flight) : Json(nullptr)}};
 }
 
 std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
@@ -57,7 +59,7 @@ std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
                                     : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
   }
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n", g.group, g.flights,
-                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, g.least_clearance_m,
+                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, g.min_clearance_m,
                      g.median_clearance_m, g.median_time_s);
 }
 
@@ -68,6 +70,19 @@ Interval BatchOutcome::success_interval(Count success) const {
 }
 
 std::string BatchOutcome::interval_method() const { return sequential.empty() ? "wilson" : "anytime"; }
+
+Standing verdict_of(const BatchOutcome& outcome) {
+  const auto shown = [](bool all) { return all ? Standing::shown : Standing::refuted; };
+  if (!outcome.sequential.empty()) {
+    const auto any = [&](Standing standing) {
+      return std::ranges::find(outcome.sequential, standing, &SequentialResult::standing) != outcome.sequential.end();
+    };
+    if (any(Standing::refuted)) return Standing::refuted;
+    return any(Standing::undecided) ? Standing::undecided : Standing::shown;
+  }
+  if (!outcome.verdicts.empty()) return shown(std::ranges::all_of(outcome.verdicts, &GroupVerdict::passed));
+  return shown(std::ranges::all_of(outcome.records, [](const FlightRecord& r) { return holds(verdict_of(r)); }));
+}
 
 std::string batch_json(const BatchOutcome& outcome, const std::string& version) {
   Json json{{"version", version},
@@ -96,12 +111,12 @@ std::string summary_text(const BatchOutcome& outcome) {
   std::string text = several_builds_words(records) + truth_words(records) +
                      fmt::format(
                          "| scenario | flights | passed | 95 % interval{} | reached | collided | timeout | fault | "
-                         "missing | least clearance, m | median least clearance, m | median time, s "
+                         "missing | minimum clearance, m | median minimum clearance, m | median time, s "
                          "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
                          outcome.sequential.empty() ? "" : " at any time");
   for (const GroupSummary& group : summarize(records)) text += group_line(group, outcome);
   for (const FlightRecord& record : records) {
-    if (record.status == FlightRecord::Status::missing || passed(record) || unchecked(record)) continue;
+    if (record.status == FlightRecord::Status::missing || holds(verdict_of(record))) continue;
     text +=
         fmt::format("FAIL  {}: {}\n      {}\n", record.order.id, failure_words(record), rerun_command(record.order));
   }
@@ -118,21 +133,21 @@ std::string summary_text(const BatchOutcome& outcome) {
 }
 
 std::string failure_words(const FlightRecord& record) {
-  if (passed(record)) return "";
-  if (unchecked(record)) return std::string(kNoChecks);
-  if (record.status != FlightRecord::Status::flown) return record.cause;
-  std::string words = record.result.at("outcome").get<std::string>();
-  if (const std::string cause = record.result.value("cause", ""); !cause.empty()) words += " (" + cause + ")";
-  for (const auto& check : record.result.at("checks")) {
-    if (check.at("passed").get<bool>()) continue;
-    const auto figure = [&](const char* key) {
-      return check.at(key).is_number() ? fmt::format("{:.4g}", check.at(key).get<double>()) : std::string("unknown");
-    };
-    words += fmt::format("; {} {}, must be {} {} {}", check.at("name").get<std::string>(), figure("value"),
-                         check.value("must", "<="), figure("limit"), check.at("unit").get<std::string>());
-    if (check.contains("t_s") && check["t_s"].is_number()) {
-      words += fmt::format(" (at {:.2f} s)", check["t_s"].get<double>());
-    }
+  const Verdict verdict = verdict_of(record);
+  if (verdict == Verdict::passed) return "";
+  if (verdict == Verdict::unchecked) return std::string(kNoChecks);
+  if (verdict == Verdict::not_flown) return record.cause;
+  const FlightResult& result = record.result->flight;
+  std::string words(to_string(result.outcome));
+  if (!result.cause.empty()) words += " (" + result.cause + ")";
+  const auto figure = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("unknown");
+  };
+  for (const CheckResult& check : result.checks) {
+    if (check.passed) continue;
+    words += fmt::format("; {} {}, must be {} {} {}", check.name, figure(check.value), check.must, figure(check.limit),
+                         check.unit);
+    if (check.t_s) words += fmt::format(" (at {:.2f} s)", *check.t_s);
   }
   return words;
 }

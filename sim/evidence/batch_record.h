@@ -22,6 +22,10 @@ struct BatchOutcome {
   std::string interval_method() const;  ///< "wilson" or "anytime"
 };
 
+/// Returns the verdict on a batch: on its claims under a stopping rule, else on its checks over the seeds, else on its
+/// flights.
+Standing verdict_of(const BatchOutcome& outcome);
+
 /// Text of batch.json: version, build, how it was to be flown, groups with the success rate's interval (95 %), verdicts
 /// over the seeds, what a stopping rule found, and every flight with its order, status, cause, re-run command and
 /// result.

@@ -10,8 +10,8 @@
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
+#include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/inputs.h"
 
 namespace hedgehop::sim {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <regex>
 #include <vector>
 
@@ -26,16 +25,14 @@ constexpr NamedKind kKinds[] = {{"collision", FlightEvent::Kind::collision},
 void require_figure(const std::string& name, std::string_view rule) {
   const Table table = flight_table({});
   std::vector<std::string_view> allowed;
-  for (const TableColumn& column : table.columns) {
-    if (column.kind == FigureKind::judged && column.name != "trajectory_hash") allowed.push_back(column.name);
+  for (const std::string& column : table.names()) {
+    if (table.column(column).kind == FigureKind::judged && column != "trajectory_hash") allowed.push_back(column);
     if (!allowed.empty() && allowed.back() == name) return;
   }
   throw InputError(fmt::format("'{}': no column '{}' of every flight{}", rule, name, suggestion(name, allowed)));
 }
 
-bool flew(const FlightRecord& record) {
-  return record.status == FlightRecord::Status::flown && record.result.at("outcome") != "fault";
-}
+bool flew(const FlightRecord& record) { return record.result && verdict_of(record) != Verdict::fault; }
 
 }  // namespace
 
@@ -69,11 +66,11 @@ std::optional<bool> observe(const FlightEvent& event, const FlightRecord& record
   if (!flew(record)) return {};
   switch (event.kind) {
     case FlightEvent::Kind::collision:
-      return record.result.at("outcome") == "collided";
+      return record.result->flight.outcome == Outcome::collided;
     case FlightEvent::Kind::timeout:
-      return record.result.at("outcome") == "timeout";
+      return record.result->flight.outcome == Outcome::timeout;
     case FlightEvent::Kind::success:
-      return passed(record);
+      return verdict_of(record) == Verdict::passed;
     case FlightEvent::Kind::figure:
       break;
   }
@@ -83,11 +80,7 @@ std::optional<bool> observe(const FlightEvent& event, const FlightRecord& record
 }
 
 std::optional<double> figure_of(const FlightRecord& record, const std::string& figure) {
-  if (!flew(record)) return {};
-  const auto value = record.result.find(figure);
-  if (value == record.result.end()) return {};
-  if (value->is_number()) return value->get<double>();
-  return figure.ends_with("clearance_m") ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
+  return flew(record) ? figure_of(record.result->flight, figure) : std::nullopt;
 }
 
 double parse_rule_number(const std::string& text, std::string_view rule) {

@@ -51,7 +51,7 @@ SequentialCount::SequentialCount(StoppingRule rule, const std::vector<Order>& or
       group.observed.emplace_back(pairs ? 2 : 1);
     }
     const auto index = static_cast<size_t>(&group - groups_.data());
-    places_[order.id] = {index, group.seeds.size() - 1, second ? 1u : 0u};
+    slots_[order.id] = {index, group.seeds.size() - 1, second ? 1u : 0u};
   }
 }
 
@@ -61,12 +61,14 @@ SequentialCount::Group& SequentialCount::group_named(const std::string& name) {
   return groups_.emplace_back(Group{.name = name, .tally = tally_of(rule_), .seeds = {}, .observed = {}});
 }
 
-void SequentialCount::ended(const FlightRecord& record) {
-  const Place& place = places_.at(record.order.id);
-  Group& group = groups_[place.group];
-  group.observed[place.unit][place.member] =
+bool SequentialCount::ended(const FlightRecord& record) {
+  const FlightSlot& slot = slots_.at(record.order.id);
+  Group& group = groups_[slot.group];
+  group.observed[slot.unit][slot.member] =
       std::visit([&](const auto& tally) { return tally.observe(record); }, group.tally);
+  const bool was_undecided = group.standing == Standing::undecided;
   advance(group);
+  return was_undecided && group.standing != Standing::undecided;
 }
 
 void SequentialCount::advance(Group& group) {
@@ -88,12 +90,12 @@ void SequentialCount::advance(Group& group) {
 }
 
 bool SequentialCount::wanted(const Order& order) const {
-  return groups_[places_.at(order.id).group].standing == Standing::undecided;
+  return groups_[slots_.at(order.id).group].standing == Standing::undecided;
 }
 
 bool SequentialCount::counted(const Order& order) const {
-  const Place& place = places_.at(order.id);
-  return place.unit < groups_[place.group].next;
+  const FlightSlot& slot = slots_.at(order.id);
+  return slot.unit < groups_[slot.group].next;
 }
 
 SequentialResult SequentialCount::result_of(const Group& group) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -35,8 +36,9 @@ class SequentialCount {
   /// base and the second as candidate, all in one group; else each group has its own count.
   SequentialCount(StoppingRule rule, const std::vector<Order>& orders);
 
-  /// A flight has ended, in whatever order.
-  void ended(const FlightRecord& record);
+  /// A flight has ended, in whatever order. Returns whether it has decided its group, whose other flights count no
+  /// more.
+  bool ended(const FlightRecord& record);
   /// Whether the flight may still count: its group is undecided.
   bool wanted(const Order& order) const;
   /// Whether the flight has been counted.
@@ -55,7 +57,7 @@ class SequentialCount {
     size_t next = 0;                                           ///< unit to be counted next
     Standing standing = Standing::undecided;
   };
-  struct Place {
+  struct FlightSlot {
     size_t group, unit, member;
   };
   Group& group_named(const std::string& name);
@@ -64,7 +66,7 @@ class SequentialCount {
 
   StoppingRule rule_;
   std::vector<Group> groups_;
-  std::map<std::string, Place> places_;  ///< by the order's id
+  std::map<std::string, FlightSlot> slots_;  ///< by the order's id
 };
 
 /// Orders seed by seed: the first of every group, then the second of every group, and so on.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "sim/config/input_error.h"
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/config/whole_file.h"
 #include "sim/export/formats.h"
 #include "sim/export/sensor_record.h"
 #include "sim/export/true_images.h"
 #include "sim/flight/build.h"
 #include "sim/record/image_file.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/rig.h"
 #include "sim/simulation/simulation.h"
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
@@ -14,9 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string hash_of(const FlightRecord& record) {
-  return record.status == FlightRecord::Status::flown ? record.result.at("trajectory_hash").get<std::string>() : "";
-}
+std::string hash_of(const FlightRecord& record) { return record.result ? record.result->flight.trajectory_hash : ""; }
 
 bool same_failure(const FlightRecord& a, const FlightRecord& b, const std::string& check) {
   const WeakestCheck of_a = weakest_check(a, {check}), of_b = weakest_check(b, {check});

@@ -238,14 +238,17 @@ class Search {
 FalsifyResult falsify(const FalsifySearch& search, const FlyPoint& fly) { return Search(search, fly).run(); }
 
 Table falsify_table(const FalsifySearch& search, const FalsifyResult& result) {
-  std::vector<ExtraColumn> before{
-      {.name = "generation", .cells = {}}, {.name = "weakest", .cells = {}}, {.name = "robustness", .cells = {}}};
+  std::vector<double> generations, robustness;
+  std::vector<std::string> weakest_checks;
   for (size_t i = 0; i < result.records.size(); ++i) {
     const WeakestCheck weakest = weakest_check(result.records[i], search.config.robustness);
-    before[0].cells.emplace_back(static_cast<int64_t>(result.trials[result.orders.points[i]].generation));
-    before[1].cells.emplace_back(weakest.name);
-    before[2].cells.emplace_back(weakest.robustness);
+    generations.push_back(static_cast<double>(result.trials[result.orders.points[i]].generation));
+    weakest_checks.push_back(weakest.name);
+    robustness.push_back(weakest.robustness);
   }
+  const std::vector<Table::Column> before = {{.name = "generation", .values = std::move(generations), .whole = true},
+                                             {.name = "weakest", .values = std::move(weakest_checks)},
+                                             {.name = "robustness", .values = std::move(robustness)}};
   return sweep_table(search.sweep, result.orders, result.records, before);
 }
 

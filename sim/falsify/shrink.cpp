@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "sim/config/numbers.h"
+#include "sim/config/whole_file.h"
 #include "sim/falsify/ddmin.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {

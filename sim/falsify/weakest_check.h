@@ -19,8 +19,8 @@ struct WeakestCheck {
 /// @param names  of the checks that count; all if empty.
 WeakestCheck weakest_check(const FlightRecord& record, const std::vector<std::string>& names);
 
-/// Returns the robustness of one check of result.json.
-double check_robustness(const nlohmann::ordered_json& check);
+/// Returns the robustness of one check.
+double check_robustness(const CheckResult& check);
 
 /// Returns the time at which a check was decided, s: the end of the flight if unknown, infinity without a result.
 double decided_s(const FlightRecord& record, const std::string& check);

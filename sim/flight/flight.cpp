@@ -1,5 +1,7 @@
 #include "sim/flight/flight.h"
 
+#include <algorithm>
+
 namespace hedgehop::sim {
 
 std::string_view to_string(Outcome outcome) {
@@ -14,6 +16,40 @@ std::string_view to_string(Outcome outcome) {
       return "fault";
   }
   return "fault";
+}
+
+std::optional<Outcome> parse_outcome(std::string_view text) {
+  for (const Outcome outcome : {Outcome::reached, Outcome::collided, Outcome::timeout, Outcome::fault}) {
+    if (text == to_string(outcome)) return outcome;
+  }
+  return {};
+}
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::passed:
+      return "passed";
+    case Verdict::failed:
+      return "failed";
+    case Verdict::unchecked:
+      return "unchecked";
+    case Verdict::fault:
+      return "fault";
+    case Verdict::not_flown:
+      return "not_flown";
+  }
+  return "not_flown";
+}
+
+Verdict verdict_of(const FlightResult& result) {
+  if (result.outcome == Outcome::fault) return Verdict::fault;
+  if (result.checks.empty()) return Verdict::unchecked;
+  return std::ranges::all_of(result.checks, &CheckResult::passed) ? Verdict::passed : Verdict::failed;
+}
+
+const ClosestApproach& closest_approach(const FlightResult& result) {
+  const bool by_obstacle = result.closest_obstacle.distance_m <= result.closest_ground.distance_m;
+  return by_obstacle ? result.closest_obstacle : result.closest_ground;
 }
 
 std::string_view to_string(FigureKind kind) {

@@ -50,6 +50,8 @@ enum class Outcome {
   fault,     ///< the module threw an exception, or the state became non-finite
 };
 std::string_view to_string(Outcome outcome);
+/// Inverse of to_string().
+std::optional<Outcome> parse_outcome(std::string_view text);
 
 /// One control tick: truth, estimate, command.
 struct TrajectoryRow {
@@ -130,6 +132,19 @@ struct Libraries {
   std::string renderer;   ///< one line: "tiles", or vendor, renderer and version of OpenGL
 };
 
+/// Verdict on a flight.
+enum class Verdict {
+  passed,     ///< the flight has checks, and all hold
+  failed,     ///< a check does not hold
+  unchecked,  ///< the flight has no checks
+  fault,      ///< the flight ended by a fault
+  not_flown   ///< there is no result
+};
+std::string_view to_string(Verdict verdict);
+
+/// Whether a command over flights of this verdict may exit with status 0.
+inline bool holds(Verdict verdict) { return verdict == Verdict::passed || verdict == Verdict::unchecked; }
+
 struct FlightResult {
   Outcome outcome = Outcome::fault;
   std::string cause;  ///< one line for collided and fault, else empty
@@ -150,6 +165,12 @@ struct FlightResult {
   std::vector<MetricValue> metrics;
   scenes::SceneFigures scene;  ///< of the obstacles within one meter of the start's altitude
 };
+
+/// Returns the verdict on a flight that has a result; every other decision of "passed" uses this function.
+Verdict verdict_of(const FlightResult& result);
+
+/// Returns the smaller of the distances to obstacles and to the ground.
+const ClosestApproach& closest_approach(const FlightResult& result);
 
 struct Flight {
   FlightResult result;

@@ -12,12 +12,12 @@
 
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
+#include "sim/flight/json_number.h"
+#include "sim/flight/result_io.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/json_number.h"
-#include "sim/record/run_record.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -72,7 +72,7 @@ Json group_row(const GroupSummary& group, bool anytime) {
           {"broken", group.fault + group.failed},
           {"missing", group.missing},
           {"no_checks", group.unchecked},
-          {"least_clearance_m", json_number(group.least_clearance_m)},
+          {"min_clearance_m", json_number(group.min_clearance_m)},
           {"median_clearance_m", json_number(group.median_clearance_m)},
           {"median_time_s", json_number(group.median_time_s)}};
 }
@@ -134,7 +134,10 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
   std::vector<FlightNotes> notes(records.size());
   for (size_t i = 0; i < records.size(); ++i) {
     const std::filesystem::path flight = folder / records[i].order.id;
-    notes[i].why = passed(records[i]) ? "" : unchecked(records[i]) ? std::string(kNoChecks) : outcome_words(records[i]);
+    const Verdict verdict = verdict_of(records[i]);
+    if (verdict != Verdict::passed) {
+      notes[i].why = verdict == Verdict::unchecked ? std::string(kNoChecks) : outcome_words(records[i]);
+    }
     if (!records[i].cause.empty()) notes[i].why += ": " + records[i].cause;
     notes[i].has_report = std::filesystem::exists(flight / "report.html");
     notes[i].has_replay = std::filesystem::exists(flight / "replay.html");
@@ -143,21 +146,19 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
       FlightRecord whole = records[i];
       whole.result = read_result(flight / "result.json");
       notes[i].why = failure_words(whole);
-      for (const auto& check : whole.result.at("checks")) {
-        notes[i].units["check." + check.at("name").get<std::string>()] = check.at("unit").get<std::string>();
+      for (const CheckResult& check : whole.result->flight.checks) {
+        notes[i].units["check." + check.name] = check.unit;
       }
-      const Json units = whole.result.value("metric_units", Json::object());
-      for (const auto& [name, unit] : units.items()) {
-        notes[i].units["metric." + name] = unit.get<std::string>();
+      for (const MetricValue& metric : whole.result->flight.metrics) {
+        notes[i].units["metric." + metric.name] = metric.unit;
       }
-    } catch (const nlohmann::json::exception&) {
     } catch (const std::runtime_error&) {  // incomplete result.json: the table is used
     }
   }
   return notes;
 }
 
-Json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes) {
+Json columns_data(const Table& table, const std::vector<FlightNotes>& notes) {
   Json columns = Json::array();
   for (const std::string& name : table.names()) {
     const std::vector<std::string> words = table.words(name);
@@ -213,10 +214,10 @@ Json against_data(const FlightList& now, const FlightList& before) {
       continue;
     }
     const FlightRecord& old = before.records[*pair];
-    Json row{{"outcome", outcome_words(old)}, {"passed", passed(old)}, {"command", commands[*pair]}};
-    const bool flown = old.status == FlightRecord::Status::flown;
-    row["clearance_m"] = flown ? old.result.at("min_obstacle_clearance_m") : Json(nullptr);
-    row["time_s"] = flown ? old.result.at("flight_time_s") : Json(nullptr);
+    Json row{
+        {"outcome", outcome_words(old)}, {"passed", verdict_of(old) == Verdict::passed}, {"command", commands[*pair]}};
+    row["clearance_m"] = old.result ? json_number(old.result->flight.closest_obstacle.distance_m) : Json(nullptr);
+    row["time_s"] = old.result ? json_number(old.result->flight.flight_time_s) : Json(nullptr);
     json["flights"].push_back(std::move(row));
   }
   for (size_t i = 0; i < before.records.size(); ++i) {

@@ -20,7 +20,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
 
 /// Returns the table for the page, column by column: `columns` of {name, unit, is_text, values}. Numbers have six
 /// significant figures; empty fields and values that are not finite are null. Empty columns are omitted.
-nlohmann::ordered_json columns_data(const CsvTable& table, const std::vector<FlightNotes>& notes);
+nlohmann::ordered_json columns_data(const Table& table, const std::vector<FlightNotes>& notes);
 
 /// Returns the film strips of the flights as [row, JPEG in base64], in the order of the rows, up to 2.5 MB in total.
 /// @param folder  of the campaign.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sim/batch/group_verdict.h"
+#include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/conduct.h"
 #include "sim/flight/build.h"
@@ -13,7 +14,6 @@
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/leaderboard_page.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {

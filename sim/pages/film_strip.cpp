@@ -9,11 +9,11 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "sim/config/whole_file.h"
 #include "sim/fields/quantities.h"
+#include "sim/flight/result_io.h"
 #include "sim/record/film.h"
 #include "sim/record/image_file.h"
-#include "sim/record/run_record.h"
-#include "sim/record/whole_file.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
@@ -76,20 +76,21 @@ cv::Mat strip(const std::deque<Image>& images, double end_s) {
 
 /// Returns the strip. Throws std::runtime_error with the reason if there is none.
 void write_film_strip(const std::filesystem::path& flight) {
-  const nlohmann::ordered_json result = read_result(flight / "result.json");
-  const nlohmann::ordered_json& closest = result.at("closest_obstacle");
-  const bool collided = result.at("outcome") == "collided";
-  const double end_s = (collided ? result.at("flight_time_s") : closest.at("t_s")).get<double>();
+  const FlightResult result = read_result(flight / "result.json").flight;
+  const ClosestApproach& closest = result.closest_obstacle;
+  const bool collided = result.outcome == Outcome::collided, approached = std::isfinite(closest.distance_m);
+  if (!collided && !approached) throw std::runtime_error("the flight came near no obstacle");
+  const double end_s = collided ? result.flight_time_s : closest.t_s;
 
   LoadedScenario loaded = load_flight(flight / "scenario.yaml");
   if (!collided) loaded.scenario.duration_s = end_s;
   StripWatcher watcher(loaded.scenario.film.rate_hz);
   const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
   const double clearance_m = again.closest_obstacle.distance_m;
-  if (!closest.is_null() && std::abs(clearance_m - closest.at("distance_m").get<double>()) > kSameFlightM) {
+  if (approached && std::abs(clearance_m - closest.distance_m) > kSameFlightM) {
     throw std::runtime_error(
         fmt::format("minimum clearance of the re-simulated flight is {:.6f} m, of the recorded one {:.6f} m",
-                    clearance_m, closest.at("distance_m").get<double>()));
+                    clearance_m, closest.distance_m));
   }
   if (watcher.images().empty()) throw std::runtime_error("no camera image was rendered");
   write_file_whole(flight / "strip.jpg", jpeg_of(strip(watcher.images(), end_s), kQuality));
@@ -101,11 +102,12 @@ std::vector<size_t> worst_flights(const std::vector<FlightRecord>& records, size
   std::vector<std::pair<double, size_t>> collisions, near_misses;
   for (size_t row = 0; row < records.size(); ++row) {
     const FlightRecord& record = records[row];
-    if (record.status != FlightRecord::Status::flown) continue;
-    if (record.result.at("outcome") == "collided") {
-      collisions.emplace_back(record.result.at("flight_time_s").get<double>(), row);
-    } else if (const auto& clearance_m = record.result.at("min_obstacle_clearance_m"); clearance_m.is_number()) {
-      near_misses.emplace_back(clearance_m.get<double>(), row);
+    if (verdict_of(record) == Verdict::not_flown) continue;
+    const FlightResult& result = record.result->flight;
+    if (result.outcome == Outcome::collided) {
+      collisions.emplace_back(result.flight_time_s, row);
+    } else if (const double clearance_m = result.closest_obstacle.distance_m; std::isfinite(clearance_m)) {
+      near_misses.emplace_back(clearance_m, row);
     }
   }
   std::ranges::sort(collisions);

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/flight/json_number.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/plan.h"
-#include "sim/record/csv_table.h"
-#include "sim/record/json_number.h"
+#include "sim/record/table.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
@@ -89,7 +90,7 @@ Json path_steps(const std::vector<Eigen::Vector2d>& path) {
 std::optional<FlownPath> read_path(const std::filesystem::path& flight_folder, uint64_t seed, size_t max_points) {
   try {
     const Scenario scenario = load_scenario(flight_folder / "scenario.yaml");
-    const CsvTable trajectory(flight_folder / "trajectory.csv");
+    const Table trajectory(flight_folder / "trajectory.csv");
     const auto north = trajectory.numbers("north_m"), east = trajectory.numbers("east_m");
     const auto down = trajectory.numbers("down_m");
     FlownPath path{.scene = scenario.scene, .seed = seed, .goal = scenario.goal};

@@ -11,10 +11,10 @@
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
 #include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
-#include "sim/record/json_number.h"
-#include "sim/record/whole_file.h"
+#include "sim/flight/json_number.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -24,8 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kLeaderboardFile = "leaderboard.json";  // in the folder of the batch
 
 /// Returns the median of a column over some rows, without empty fields.
-double median_of(const CsvTable& table, const std::string& column, const std::vector<size_t>& rows) {
-  if (std::ranges::find(table.names(), column) == table.names().end()) return std::nan("");
+double median_of(const Table& table, const std::string& column, const std::vector<size_t>& rows) {
+  if (!table.has(column)) return std::nan("");
   const std::vector<double> all = table.numbers(column);
   std::vector<double> some;
   for (const size_t row : rows) {
@@ -60,7 +60,7 @@ Json figures(const FlightList& flights, const std::set<std::string>& groups) {
   data["collided_high"] = collided.high;
   data["timeout"] = group.timeout;
   data["broken"] = group.fault + group.failed;
-  data["least_clearance_m"] = json_number(group.least_clearance_m);
+  data["min_clearance_m"] = json_number(group.min_clearance_m);
   data["median_clearance_m"] = json_number(group.median_clearance_m);
   data["path_excess"] = json_number(median_of(flights.table, "metric.path_excess", rows));
   data["mean_speed_mps"] = json_number(median_of(flights.table, "mean_speed_mps", rows));
@@ -168,7 +168,7 @@ std::string rows_text(const Json& data) {
       for (const char* key : {"flights", "passed", "collided", "timeout", "broken"}) {
         text += fmt::format(" {} |", cell.at(key).get<int64_t>());
       }
-      for (const char* key : {"least_clearance_m", "median_clearance_m", "path_excess", "mean_speed_mps"}) {
+      for (const char* key : {"min_clearance_m", "median_clearance_m", "path_excess", "mean_speed_mps"}) {
         text += " " + words(cell.at(key)) + " |";
       }
       text += " " + words(cell.at("decision_ms"), "{:.1f}") + " |\n";

@@ -58,7 +58,7 @@ Values unwrapped(Values yaw_rad, const Values* reference = nullptr) {
 /// Reads columns of the trajectory and makes panels over time.
 class TrajectoryPanels {
  public:
-  explicit TrajectoryPanels(const ColumnTable& table) : table_(table), t_s_(column("t_s")) {}
+  explicit TrajectoryPanels(const Table& table) : table_(table), t_s_(column("t_s")) {}
 
   bool has(std::string_view name) const { return std::ranges::count(table_.names(), name) > 0; }
   Values column(std::string_view name) const { return table_.numbers(name); }
@@ -78,7 +78,7 @@ class TrajectoryPanels {
   std::vector<Panel> take() { return std::move(panels_); }
 
  private:
-  const ColumnTable& table_;
+  const Table& table_;
   Values t_s_;
   std::vector<Panel> panels_;
 };
@@ -226,7 +226,7 @@ void move_common_words(Panel& panel) {
 
 }  // namespace
 
-std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::vector<Limit>& clearance_limits) {
+std::vector<Panel> trajectory_panels(const Table& trajectory, const std::vector<Limit>& clearance_limits) {
   TrajectoryPanels panels(trajectory);
   add_motion(panels, clearance_limits);
   add_aircraft(panels);
@@ -234,7 +234,7 @@ std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::v
   return panels.take();
 }
 
-std::vector<Panel> signal_panels(const ColumnTable& decisions) {
+std::vector<Panel> signal_panels(const Table& decisions) {
   std::vector<Panel> panels;
   std::vector<std::string> groups;
   for (size_t c = kCommonDecisionColumns; c < decisions.names().size(); ++c) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/record/column_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 
@@ -43,10 +43,10 @@ inline constexpr std::array kSections = {kMotionSection, kModuleSection, kAircra
 
 /// Returns the time plots of trajectory.csv, including those of [Garratt2009] fig. 6. Velocities are along and across
 /// the true heading. @param clearance_limits  for the clearance plot.
-std::vector<Panel> trajectory_panels(const ColumnTable& trajectory, const std::vector<Limit>& clearance_limits);
+std::vector<Panel> trajectory_panels(const Table& trajectory, const std::vector<Limit>& clearance_limits);
 
 /// Returns the time plots of the module's signals in decisions.csv, as in [Garratt2009] fig. 7: one plot for all
 /// signals with equal first word and unit ("flow_left_radps", "flow_right_radps"). The unit is the end of the name.
-std::vector<Panel> signal_panels(const ColumnTable& decisions);
+std::vector<Panel> signal_panels(const Table& decisions);
 
 }  // namespace hedgehop::sim

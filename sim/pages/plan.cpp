@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/record/json_number.h"
+#include "sim/flight/json_number.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/flight/json_number.h"
 #include "sim/pages/plan.h"
-#include "sim/record/json_number.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -111,7 +111,7 @@ Json replay_hull(const std::vector<dynamics::HullPart>& hull) {
   return json;
 }
 
-Json replay_statuses(const ColumnTable& decisions) {
+Json replay_statuses(const Table& decisions) {
   Json json = Json::array();
   const auto& t_s = decisions.numbers("t_s");
   const auto& status = decisions.words("status");
@@ -121,7 +121,7 @@ Json replay_statuses(const ColumnTable& decisions) {
   return json;
 }
 
-Json replay_path(const ColumnTable& trajectory, size_t max_rows) {
+Json replay_path(const Table& trajectory, size_t max_rows) {
   const size_t rows = trajectory.rows();
   const size_t stride = std::max<size_t>(1, (rows + max_rows - 2) / std::max<size_t>(1, max_rows - 1));
   std::vector<size_t> kept;

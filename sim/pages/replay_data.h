@@ -4,7 +4,7 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
-#include "sim/record/column_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 
@@ -19,10 +19,10 @@ nlohmann::ordered_json replay_scene(const scenes::Scene& scene, double end_s);
 nlohmann::ordered_json replay_hull(const std::vector<dynamics::HullPart>& hull);
 
 /// Returns the changes of the module status as [t_s, status]. Throws std::runtime_error if the table lacks a column.
-nlohmann::ordered_json replay_statuses(const ColumnTable& decisions);
+nlohmann::ordered_json replay_statuses(const Table& decisions);
 
 /// Returns the flight: true position, attitude (rad, 3-2-1), clearance and speed at most `max_rows` evenly
 /// spaced rows of the trajectory, including the last one. Throws std::runtime_error if the table lacks a column.
-nlohmann::ordered_json replay_path(const ColumnTable& trajectory, size_t max_rows = 6000);
+nlohmann::ordered_json replay_path(const Table& trajectory, size_t max_rows = 6000);
 
 }  // namespace hedgehop::sim

@@ -7,13 +7,13 @@
 #include <string>
 #include <variant>
 
+#include "sim/config/whole_file.h"
+#include "sim/flight/json_number.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"
 #include "sim/pages/replay_data.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/json_number.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -64,7 +64,7 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
 }
 
 /// Returns the status at each row as an index of the names; -1 before the first decision.
-Json status_json(const Values& t_s, const std::vector<size_t>& rows, const ColumnTable& decisions, Json& names) {
+Json status_json(const Values& t_s, const std::vector<size_t>& rows, const Table& decisions, Json& names) {
   const Values decided_s = decisions.numbers("t_s");
   const std::vector<std::string> words = decisions.words("status");
   std::vector<std::string> known;
@@ -84,7 +84,7 @@ Json status_json(const Values& t_s, const std::vector<size_t>& rows, const Colum
   return list;
 }
 
-Json path_json(const ColumnTable& trajectory, const ColumnTable& decisions, size_t max_points) {
+Json path_json(const Table& trajectory, const Table& decisions, size_t max_points) {
   const Values t_s = trajectory.numbers("t_s"), north = trajectory.numbers("north_m");
   const Values east = trajectory.numbers("east_m"), clearance = trajectory.numbers("clearance_m");
   const Values v_north = trajectory.numbers("v_north_mps"), v_east = trajectory.numbers("v_east_mps");
@@ -106,11 +106,11 @@ Json path_json(const ColumnTable& trajectory, const ColumnTable& decisions, size
   return json;
 }
 
-std::vector<Limit> clearance_limits(const Json& result) {
+std::vector<Limit> clearance_limits(const FlightResult& result) {
   std::vector<Limit> limits;
-  for (const Json& check : result.value("checks", Json::array())) {
-    if (check.value("name", "") == "min_clearance" && check.at("limit").is_number()) {
-      limits.push_back({"limit of the check", check.at("limit").get<double>()});
+  for (const CheckResult& check : result.checks) {
+    if (check.name == "min_clearance" && std::isfinite(check.limit)) {
+      limits.push_back({"limit of the check", check.limit});
     }
   }
   return limits;
@@ -139,7 +139,7 @@ ReportScenario describe_scenario(const RunRecord& run) {
   return result;
 }
 
-std::string title(const RunRecord& run) { return run.result.value("scenario", "flight"); }
+std::string title(const RunRecord& run) { return run.result.info.scenario; }
 
 /// Returns the JSON text. Texts of a module may be invalid UTF-8.
 std::string text(const nlohmann::ordered_json& data) {
@@ -157,10 +157,10 @@ PageFilm find_film(const std::filesystem::path& run_folder) {
 
 }  // namespace
 
-Json report_data(const ReportScenario& scenario, const Json& result, const ColumnTable& trajectory,
-                 const ColumnTable& decisions, size_t max_points) {
+Json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,
+                 const Table& decisions, size_t max_points) {
   Json json;
-  json["result"] = result;
+  json["result"] = to_json(result.info, result.flight);
   json["description"] = scenario.description;
   json["module"] = scenario.module;
   json["scene"] = scenario.scene;
@@ -169,7 +169,7 @@ Json report_data(const ReportScenario& scenario, const Json& result, const Colum
   json["plan"] = plan_json(scenario, trajectory.numbers("down_m"));
   json["path"] = path_json(trajectory, decisions, max_points);
   json["panels"] = Json::array();
-  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result));
+  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result.flight));
   std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
   for (const std::string_view section : kSections) {
     for (const Panel& panel : panels) {
@@ -188,9 +188,9 @@ void write_report(const std::filesystem::path& run_folder, const RunRecord& run)
 
 void write_replay(const std::filesystem::path& run_folder, const RunRecord& run) {
   nlohmann::ordered_json data;
-  data["result"] = run.result;
+  data["result"] = to_json(run.result.info, run.result.flight);
   data["has_report"] = std::filesystem::exists(run_folder / "report.html");
-  data["scene"] = replay_scene(*run.scene, run.result.at("flight_time_s").get<double>());
+  data["scene"] = replay_scene(*run.scene, run.result.flight.flight_time_s);
   data["hull"] = replay_hull(dynamics::hull(run.scenario.vehicle));
   data["path"] = replay_path(run.trajectory);
   data["statuses"] = replay_statuses(run.decisions);

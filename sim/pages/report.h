@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/pages/plan.h"
-#include "sim/record/column_table.h"
 #include "sim/record/run_record.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 
@@ -29,9 +29,8 @@ struct ReportScenario {
 
 /// Returns the data of the report: the verdict as in result.json, the plan, the path and the time plots, each decimated
 /// to about `max_points`. Throws std::runtime_error if a table lacks a column.
-nlohmann::ordered_json report_data(const ReportScenario& scenario, const nlohmann::ordered_json& result,
-                                   const ColumnTable& trajectory, const ColumnTable& decisions,
-                                   size_t max_points = 4000);
+nlohmann::ordered_json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,
+                                   const Table& decisions, size_t max_points = 4000);
 
 /// Writes `report.html` into the folder of a run. The page needs no network. It embeds the film (`video.webm` in the
 /// folder) if the film is smaller than 40 MB, else it links the film. It links `replay.html` if the folder has one.

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/flight/json_number.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
-#include "sim/record/csv_table.h"
-#include "sim/record/json_number.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -59,7 +59,7 @@ class LineMaker {
     for (const FlightRecord& flight : flights_of(outcome_, series.flights, series.seed)) {
       const auto file = outcome_.folder / flight.order.id / (decisions ? "decisions.csv" : "trajectory.csv");
       try {
-        const CsvTable log(file);
+        const Table log(file);
         const std::vector<std::vector<double>> columns{log.numbers(series.x), log.numbers(series.y)};
         std::vector<double> x, y;
         for (const size_t row : decimate(columns, kMaxPointsOfLine)) {

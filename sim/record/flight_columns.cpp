@@ -44,11 +44,11 @@ class Columns {
     for (const Row& row : rows_) words.push_back(row.*word);
     table_.add(std::move(name), std::move(words));
   }
-  ColumnTable take() { return std::move(table_); }
+  Table take() { return std::move(table_); }
 
  private:
   const std::vector<Row>& rows_;
-  ColumnTable table_;
+  Table table_;
 };
 
 template <class Row>
@@ -60,7 +60,7 @@ void add_command(Columns<Row>& columns) {
 
 }  // namespace
 
-ColumnTable trajectory_columns(const Flight& flight) {
+Table trajectory_columns(const Flight& flight) {
   using Row = TrajectoryRow;
   Columns<Row> columns(flight.trajectory);
   columns.add("t_s", &Row::t_s);
@@ -83,7 +83,7 @@ ColumnTable trajectory_columns(const Flight& flight) {
   return columns.take();
 }
 
-ColumnTable decision_columns(const Flight& flight) {
+Table decision_columns(const Flight& flight) {
   using Row = DecisionRow;
   Columns<Row> columns(flight.decisions);
   columns.add("t_s", &Row::t_s);

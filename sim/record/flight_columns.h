@@ -4,17 +4,17 @@
 #include <string_view>
 
 #include "sim/flight/flight.h"
-#include "sim/record/column_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 
 /// Returns the columns of trajectory.csv, with units in their names: one row per control tick. Unknown values are NaN.
 /// The clearance is +inf without obstacles.
-ColumnTable trajectory_columns(const Flight& flight);
+Table trajectory_columns(const Flight& flight);
 
 /// Returns the columns of decisions.csv: one row per decision. Six columns of every module, then the signals of the
 /// module.
-ColumnTable decision_columns(const Flight& flight);
+Table decision_columns(const Flight& flight);
 
 /// Number of columns of decisions.csv before the signals of the module.
 inline constexpr size_t kCommonDecisionColumns = 6;

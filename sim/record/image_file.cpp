@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {

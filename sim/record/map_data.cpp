@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/record/json_number.h"
+#include "sim/flight/json_number.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "scenes/scene.h"
 #include "sim/flight/flight.h"
-#include "sim/record/column_table.h"
 #include "sim/record/result_files.h"
+#include "sim/record/table.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {
@@ -18,17 +18,13 @@ struct RunRecord {
   Scenario scenario;
   std::string scenario_yaml;                   ///< the resolved scenario
   std::shared_ptr<const scenes::Scene> scene;  ///< of the flight
-  nlohmann::ordered_json result;               ///< as in result.json
-  ColumnTable trajectory, decisions;
+  RunResult result;
+  Table trajectory, decisions;
   nlohmann::ordered_json map;  ///< as in map.json; null for a module without a map
 };
 
 /// Returns the record of a flight in memory.
 RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight& flight);
-
-/// Reads a result.json. Throws std::runtime_error if the file is missing; InputError if it is not a valid result: a
-/// required key is missing, a value has another type than in result_data(), or the nesting is too deep.
-nlohmann::ordered_json read_result(const std::filesystem::path& file);
 
 /// Returns the record of a run from scenario.yaml, result.json, trajectory.csv, decisions.csv and map.json in its
 /// folder. The scene is generated again from the scenario and its seed. Throws std::runtime_error with the file and the

@@ -55,9 +55,9 @@ Columns centering_exact() {
 
 Columns centering_noisy() {
   // The mean distance of a normal distribution from its middle is 0.798 of its spread.
-  constexpr double kMean = 0.146, kLargest = 0.54, kSpread = kMean / 0.7979;
+  constexpr double kMean = 0.146, kMaxErrorRad = 0.54, kSpread = kMean / 0.7979;
   RandomStream random(1);
-  return run([&] { return std::clamp(kSpread * random.normal(), -kLargest, kLargest); });
+  return run([&] { return std::clamp(kSpread * random.normal(), -kMaxErrorRad, kMaxErrorRad); });
 }
 
 }  // namespace hedgehop::sim

@@ -15,17 +15,19 @@ namespace {
 
 using Statistic = FlightFigure::Statistic;
 
-std::string text_of(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* integer = std::get_if<int64_t>(&cell)) return std::to_string(*integer);
-  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
-  return "";
-}
+/// A column of the table of a figure's flights.
+struct FigureColumn {
+  std::vector<std::string> words;
+  std::vector<double> numbers;  ///< NaN in a column of words
+};
 
-std::optional<double> number_of(const Cell& cell) {
-  if (const auto* integer = std::get_if<int64_t>(&cell)) return static_cast<double>(*integer);
-  if (const auto* number = std::get_if<double>(&cell); number && std::isfinite(*number)) return *number;
-  return {};
+FigureColumn column_of(const Table& table, const std::string& name) {
+  FigureColumn column{.words = std::vector<std::string>(table.rows()),
+                      .numbers = std::vector<double>(table.rows(), NAN)};
+  if (!table.has(name)) return column;
+  column.words = table.words(name);
+  if (const auto* numbers = std::get_if<std::vector<double>>(&table.column(name).values)) column.numbers = *numbers;
+  return column;
 }
 
 double statistic_of(Statistic statistic, std::vector<double> values) {
@@ -48,18 +50,17 @@ double statistic_of(Statistic statistic, std::vector<double> values) {
 
 /// A flight without a goal flies its full time; one with a goal must reach it.
 bool unfinished(const FlightRecord& record) {
-  const std::string outcome = outcome_words(record);
-  const auto distance = record.result.find("goal_distance_m");
-  const bool has_goal = distance != record.result.end() && distance->is_number();
-  return outcome == "timeout" && has_goal;
+  const FlightResult& result = record.result->flight;
+  return result.outcome == Outcome::timeout && result.goal_distance_m.has_value();
 }
 
 /// Returns the figure of one flight: 1 or 0 for a count.
-std::optional<double> figure_of_flight(const FlightFigure& figure, const Cell& cell) {
-  if (!counts(figure.statistic)) return number_of(cell);
-  const std::string text = text_of(cell);
-  if (text.empty()) return {};
-  return text == figure.is ? 1.0 : 0.0;
+std::optional<double> figure_of_flight(const FlightFigure& figure, const FigureColumn& column, size_t row) {
+  if (!counts(figure.statistic)) {
+    return std::isnan(column.numbers[row]) ? std::nullopt : std::optional(column.numbers[row]);
+  }
+  if (column.words[row].empty()) return {};
+  return column.words[row] == figure.is ? 1.0 : 0.0;
 }
 
 std::vector<FlightRecord> records_of(const FlightFigure& figure, const PaperOutcome& outcome) {
@@ -80,22 +81,21 @@ void add_origin(const FlightRecord& record, MeasuredFigure& measured) {
 
 MeasuredFigure measure(const FlightFigure& figure, const PaperOutcome& outcome, const std::string& missing) {
   const std::vector<FlightRecord> records = records_of(figure, outcome);
-  const Table table = flight_table(records);
-  const size_t column = column_index(table, figure.column);
+  const FigureColumn column = column_of(flight_table(records), figure.column);
   const ParsedNumber stand_in = parse_number(missing, false);
   MeasuredFigure measured{.required = records.size()};
   std::vector<double> values;
   for (size_t row = 0; row < records.size(); ++row) {
-    if (records[row].status != FlightRecord::Status::flown) continue;
+    const Verdict verdict = verdict_of(records[row]);
+    if (verdict == Verdict::not_flown) continue;
     ++measured.flown;
     add_origin(records[row], measured);
-    if (outcome_words(records[row]) == "fault") {
+    if (verdict == Verdict::fault) {
       ++measured.faulted;
       continue;
     }
     measured.unfinished += unfinished(records[row]) ? 1 : 0;
-    std::optional<double> value;
-    if (column < table.columns.size()) value = figure_of_flight(figure, table.rows[row][column]);
+    std::optional<double> value = figure_of_flight(figure, column, row);
     if (!value && stand_in.kind == ParsedNumber::Kind::number) {
       value = stand_in.member;
       ++measured.stand_ins;

@@ -9,7 +9,7 @@
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/flight/build.h"
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 
 namespace hedgehop::sim {
 namespace {

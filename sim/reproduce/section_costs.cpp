@@ -11,7 +11,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr int kRounds = 41;
-constexpr double kThresholdM = 9.144, kMostShare = 0.15;
+constexpr double kThresholdM = 9.144, kMaxShare = 0.15;
 
 struct Candidate {
   int side;
@@ -36,7 +36,7 @@ Columns section_costs() {
   for (int round = 0; round < kRounds; ++round) {
     for (Candidate& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();
-      candidate.search.choose(depth_m, kThresholdM, kMostShare, vision::sections::UnknownDepth::free);
+      candidate.search.choose(depth_m, kThresholdM, kMaxShare, vision::sections::UnknownDepth::free);
       const std::chrono::duration<double, std::milli> cost = std::chrono::steady_clock::now() - start;
       candidate.costs_ms.push_back(cost.count());
     }

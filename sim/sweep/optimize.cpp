@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/config/config_tree.h"
@@ -13,22 +14,20 @@ namespace {
 /// Returns the mean of a column over a point's flights. A flight that fails or lacks the figure counts as failure_cost.
 double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
-  const size_t column = column_index(table, design.minimize);
+  const bool any_flown =
+      std::ranges::any_of(records, [](const FlightRecord& record) { return record.result.has_value(); });
+  const bool has_column = table.has(design.minimize);
+  if (any_flown && !has_column) {
+    const std::vector<std::string_view> names(table.names().begin(), table.names().end());
+    throw InputError(
+        fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
+  }
+  const auto* const numbers =
+      has_column ? std::get_if<std::vector<double>>(&table.column(design.minimize).values) : nullptr;
   double sum = 0.0;
   for (size_t i = 0; i < records.size(); ++i) {
-    if (records[i].status == FlightRecord::Status::flown && column == table.columns.size()) {
-      std::vector<std::string_view> names;
-      for (const TableColumn& known : table.columns) names.push_back(known.name);
-      throw InputError(
-          fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
-    }
-    double cost = design.failure_cost;
-    if (passed(records[i]) || unchecked(records[i])) {
-      const Cell& cell = table.rows[i][column];
-      if (const auto* number = std::get_if<double>(&cell)) cost = *number;
-      if (const auto* whole = std::get_if<int64_t>(&cell)) cost = static_cast<double>(*whole);
-    }
-    sum += cost;
+    const bool counts = numbers && holds(verdict_of(records[i])) && !std::isnan((*numbers)[i]);
+    sum += counts ? (*numbers)[i] : design.failure_cost;
   }
   return sum / static_cast<double>(records.size());
 }

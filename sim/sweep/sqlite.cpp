@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -42,13 +43,17 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   return own;
 }
 
-int bind(sqlite3_stmt* statement, int place, const Cell& value) {
-  if (const auto* integer = std::get_if<int64_t>(&value)) return sqlite3_bind_int64(statement, place, *integer);
-  if (const auto* number = std::get_if<double>(&value)) return sqlite3_bind_double(statement, place, *number);
-  if (const auto* text = std::get_if<std::string>(&value)) {
-    return sqlite3_bind_text(statement, place, text->data(), static_cast<int>(text->size()), SQLITE_STATIC);
+/// Unknown numbers and empty words are NULL.
+int bind(sqlite3_stmt* statement, int place, const Table::Column& column, size_t row) {
+  if (const auto* const words = std::get_if<std::vector<std::string>>(&column.values)) {
+    const std::string& text = (*words)[row];
+    if (text.empty()) return sqlite3_bind_null(statement, place);
+    return sqlite3_bind_text(statement, place, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
   }
-  return sqlite3_bind_null(statement, place);
+  const double number = std::get<std::vector<double>>(column.values)[row];
+  if (std::isnan(number)) return sqlite3_bind_null(statement, place);
+  if (column.whole) return sqlite3_bind_int64(statement, place, static_cast<int64_t>(number));
+  return sqlite3_bind_double(statement, place, number);
 }
 
 void fill(const std::filesystem::path& file, const Table& table) {
@@ -62,7 +67,7 @@ void fill(const std::filesystem::path& file, const Table& table) {
          opened);
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (const TableColumn& column : table.columns) names.push_back(quoted_name(unique_name(column.name, taken)));
+  for (const std::string& name : table.names()) names.push_back(quoted_name(unique_name(name, taken)));
   const std::string create = fmt::format("CREATE TABLE flights ({})", fmt::join(names, ", "));
   expect(sqlite3_exec(opened, create.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK, opened);
 
@@ -71,9 +76,9 @@ void fill(const std::filesystem::path& file, const Table& table) {
   sqlite3_stmt* prepared = nullptr;
   expect(sqlite3_prepare_v2(opened, insert.c_str(), -1, &prepared, nullptr) == SQLITE_OK, opened);
   const Statement statement(prepared);
-  for (const std::vector<Cell>& row : table.rows) {
-    for (size_t i = 0; i < row.size(); ++i) {
-      expect(bind(prepared, static_cast<int>(i + 1), row[i]) == SQLITE_OK, opened);
+  for (size_t row = 0; row < table.rows(); ++row) {
+    for (size_t i = 0; i < table.columns().size(); ++i) {
+      expect(bind(prepared, static_cast<int>(i + 1), table.columns()[i], row) == SQLITE_OK, opened);
     }
     expect(sqlite3_step(prepared) == SQLITE_DONE, opened);
     sqlite3_reset(prepared);

@@ -9,16 +9,25 @@
 
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Returns the cell of a value: a number if the text is a number, so that tables can be sorted and averaged.
-Cell value_cell(const std::string& text) {
-  if (const auto whole = parse_signed(text)) return *whole;
-  const ParsedNumber parsed = parse_number(text, false);
-  return parsed.kind == ParsedNumber::Kind::number ? Cell(parsed.member) : Cell(text);
+/// Returns a column of numbers if all values are numbers, so that tables can be sorted and averaged; else of words.
+Table::Column value_column(const std::string& name, const std::vector<std::string>& texts) {
+  constexpr int64_t kMaxExactInteger = int64_t{1} << 53;
+  std::vector<double> numbers;
+  bool whole = true;
+  for (const std::string& text : texts) {
+    const std::optional<int64_t> integer = parse_signed(text);
+    const ParsedNumber parsed = parse_number(text, false);
+    const bool exact = !integer || (*integer <= kMaxExactInteger && *integer >= -kMaxExactInteger);
+    if (parsed.kind != ParsedNumber::Kind::number || !exact) return {.name = name, .values = texts};
+    numbers.push_back(parsed.member);
+    whole = whole && integer;
+  }
+  return {.name = name, .values = std::move(numbers), .whole = whole};
 }
 
 std::string header(const SlurmJob& job, std::string_view name, std::string_view log, size_t cores) {
@@ -101,13 +110,14 @@ SweepOrders part_of(const SweepOrders& all, Shard shard) {
 }
 
 Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
-                  const std::vector<ExtraColumn>& before) {
-  std::vector<ExtraColumn> extra = before;
-  ExtraColumn& number = extra.emplace_back(ExtraColumn{.name = "point", .cells = {}});
-  for (const size_t point : orders.points) number.cells.emplace_back(static_cast<int64_t>(point));
+                  const std::vector<Table::Column>& before) {
+  std::vector<Table::Column> extra = before;
+  extra.push_back(
+      {.name = "point", .values = std::vector<double>(orders.points.begin(), orders.points.end()), .whole = true});
   for (size_t i = 0; i < sweep.parameters.size(); ++i) {
-    ExtraColumn& column = extra.emplace_back(ExtraColumn{.name = sweep.parameters[i].path, .cells = {}});
-    for (const auto& values : orders.values) column.cells.push_back(value_cell(values.at(i)));
+    std::vector<std::string> texts;
+    for (const auto& values : orders.values) texts.push_back(values.at(i));
+    extra.push_back(value_column(sweep.parameters[i].path, texts));
   }
   return flight_table(records, extra);
 }

@@ -37,7 +37,7 @@ SweepOrders part_of(const SweepOrders& all, Shard shard);
 /// Returns the table of flights with additional columns for the point's number and the parameter values.
 /// @param before  further columns to the left of these.
 Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
-                  const std::vector<ExtraColumn>& before = {});
+                  const std::vector<Table::Column>& before = {});
 
 /// A sweep as a job array of an existing Slurm cluster, one shard per task.
 struct SlurmJob {

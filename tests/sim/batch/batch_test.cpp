@@ -110,7 +110,7 @@ TEST(Batch, EveryFileNamesTheBuild) {
   ASSERT_EQ(folder.hedgehop("batch tiny.yaml --out out --junit j.xml").status, 0);
   ASSERT_EQ(folder.hedgehop("report out").status, 0);
   const std::string build = folder.json("out/tiny/seed1/result.json").at("build");
-  EXPECT_THAT(folder.read("j.xml"), HasSubstr("<property name=\"build\" value=\"" + build + "\"/>"));
+  EXPECT_THAT(folder.read("j.xml"), HasSubstr("<property name=\"build\" value=\"" + build + "\" />"));
   EXPECT_THAT(folder.read("out/report.html"), HasSubstr("\"build\":\"" + build + "\""));
   EXPECT_THAT(folder.read("out/batch.csv"), AllOf(HasSubstr(",truth_used,"), HasSubstr("," + build + ",")));
 }

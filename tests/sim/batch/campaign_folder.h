@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 #include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {

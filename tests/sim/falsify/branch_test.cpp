@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 #include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
@@ -25,14 +25,14 @@ TEST_F(Branch, ChangesTheFlightOnlyAfterTheGivenTime) {
   ASSERT_LT(end.status, 2) << end.err;
   EXPECT_THAT(end.out, HasSubstr("equal up to 1.5 s, bit for bit"));
   EXPECT_NE(hash("at-1.5-avoidance.speed=0.3"), hash("unbroken"));
-  const CsvTable base(folder.path() / "out/flights/unbroken/trajectory.csv");
-  const CsvTable branch(folder.path() / "out/flights/at-1.5-avoidance.speed=0.3/trajectory.csv");
+  const Table base(folder.path() / "out/flights/unbroken/trajectory.csv");
+  const Table branch(folder.path() / "out/flights/at-1.5-avoidance.speed=0.3/trajectory.csv");
   const auto a = base.numbers("north_m"), b = branch.numbers("north_m");
   EXPECT_EQ(a.at(150), b.at(150));
   EXPECT_GT(a.back(), b.back());
   // A second branch is added to the first, and existing flights are reused.
   ASSERT_LT(folder.hedgehop("branch run --at 2 --set avoidance.speed=0.3 --out out").status, 2);
-  EXPECT_EQ(CsvTable(folder.path() / "out/batch.csv").rows(), 3u);
+  EXPECT_EQ(Table(folder.path() / "out/batch.csv").rows(), 3u);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/report.html"));
 }
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 #include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
@@ -81,7 +81,7 @@ TEST_F(Falsify, WithoutAFailureExitsWithZeroAndClaimsNoProof) {
       "falsify search.yaml --out out --set 'boxes.east=[8,14]' --set parameters=[] --set design.budget=6");
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("no failure in 6 flights: none was found, which is no proof of safety"));
-  const CsvTable table(folder.path() / "out/falsify.csv");
+  const Table table(folder.path() / "out/falsify.csv");
   EXPECT_EQ(table.rows(), 6u);
   EXPECT_THAT(table.numbers("robustness"), Each(::testing::Ge(0.0)));
 }
@@ -91,7 +91,7 @@ TEST_F(Falsify, EveryMethodKeepsItsBudgetAndIsRepeatable) {
     const std::string set = " --set design.method=" + method +
                             " --set 'constraints=[]' --set 'boxes={count: 1, north: [10, 10], east: [-14, 14]}'";
     EXPECT_EQ(folder.hedgehop("falsify search.yaml --out " + method + set).status, 1) << method;
-    const CsvTable table(folder.path() / (method + "/falsify.csv"));
+    const Table table(folder.path() / (method + "/falsify.csv"));
     EXPECT_LE(table.rows(), 60u);
     EXPECT_EQ(folder.hedgehop("falsify search.yaml --out again-" + method + set).status, 1);
     EXPECT_EQ(lasting_columns(folder.read("again-" + method + "/falsify.csv")),

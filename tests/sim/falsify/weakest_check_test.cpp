@@ -2,19 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace hedgehop::sim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-Json check(const char* name, bool passed, Json value, double limit, const char* unit, const char* must) {
-  return {{"name", name}, {"passed", passed}, {"value", value}, {"limit", limit},
-          {"unit", unit}, {"must", must},     {"t_s", 3.5}};
+CheckResult check(const char* name, bool passed, double value, double limit, const char* unit, const char* must) {
+  return {name, passed, value, limit, unit, must, 3.5};
 }
 
-FlightRecord flown(const Json& checks) {
+FlightRecord flown(const std::vector<CheckResult>& checks) {
   FlightRecord record{.status = FlightRecord::Status::flown};
-  record.result = {{"outcome", "timeout"}, {"flight_time_s", 9.0}, {"checks", checks}};
+  FlightResult& result = record.result.emplace().flight;
+  result.outcome = Outcome::timeout;
+  result.flight_time_s = 9.0;
+  result.checks = checks;
   return record;
 }
 
@@ -29,8 +33,8 @@ TEST(WeakestCheck, ScalesMarginsToMakeChecksComparable) {
 TEST(WeakestCheck, IsNegativeIfAndOnlyIfTheCheckFails) {
   EXPECT_LT(check_robustness(check("no_collision", false, 0.0, 0.0, "m", ">")), 0.0);
   EXPECT_LT(check_robustness(check("reached_goal", false, 1.0, 2.0, "m", "<=")), 0.0);
-  EXPECT_LT(check_robustness(check("metric", false, nullptr, 2.0, "", "<=")), 0.0);
-  EXPECT_GE(check_robustness(check("no_collision", true, nullptr, 0.0, "m", ">")), 10.0);
+  EXPECT_LT(check_robustness(check("metric", false, kUnknown, 2.0, "", "<=")), 0.0);
+  EXPECT_GE(check_robustness(check("no_collision", true, kUnknown, 0.0, "m", ">")), 10.0);
 }
 
 TEST(WeakestCheck, HasTheMinimumRobustnessOfTheSelectedChecks) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 

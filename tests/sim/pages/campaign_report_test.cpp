@@ -28,12 +28,11 @@ std::vector<FlightRecord> made_up(int count, uint64_t seed) {
         .id = "flights/" + std::to_string(i), .group = "point " + std::to_string(i), .scenario = "room.yaml"};
     record.order.seed = static_cast<uint64_t>(i % 4);
     const bool collides = i % 2 == 1;
-    record.result = {
-        {"outcome", collides ? "collided" : "reached"},
-        {"flight_time_s", time(random)},
-        {"min_obstacle_clearance_m", collides ? 0.0 : clearance(random)},
-        {"metrics", nlohmann::ordered_json::object()},
-        {"checks", {{{"name", "no_collision"}, {"passed", !collides}, {"value", 1.0}, {"limit", 0.0}, {"unit", "m"}}}}};
+    FlightResult& result = record.result.emplace().flight;
+    result.outcome = collides ? Outcome::collided : Outcome::reached;
+    result.flight_time_s = time(random);
+    result.closest_obstacle.distance_m = collides ? 0.0 : clearance(random);
+    result.checks = {{.name = "no_collision", .passed = !collides, .value = 1.0, .limit = 0.0, .unit = "m"}};
     records.push_back(record);
   }
   return records;
@@ -42,17 +41,19 @@ std::vector<FlightRecord> made_up(int count, uint64_t seed) {
 /// Writes the table of the flights and, for each flight, a scenario and a straight path.
 void write_sweep(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
   std::filesystem::create_directories(folder);
-  ExtraColumn point{.name = "point", .cells = {}}, gain{.name = "avoidance.gain", .cells = {}};
+  std::vector<double> point, gain;
   const std::string scenario = to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_room_0_light.yaml"));
   for (size_t i = 0; i < records.size(); ++i) {
-    point.cells.emplace_back(static_cast<int64_t>(i));
-    gain.cells.emplace_back(0.5 * static_cast<double>(i / 4));
+    point.push_back(static_cast<double>(i));
+    gain.push_back(0.5 * static_cast<double>(i / 4));
     const std::filesystem::path flight = folder / records[i].order.id;
     std::filesystem::create_directories(flight);
     write_file_whole(flight / "scenario.yaml", scenario);
     write_file_whole(flight / "trajectory.csv", "north_m,east_m,down_m\n0,0,-1\n1," + std::to_string(i) + ",-1\n");
   }
-  write_file_whole(folder / "sweep.csv", csv_text(flight_table(records, {point, gain})));
+  write_file_whole(folder / "sweep.csv", flight_table(records, {{.name = "point", .values = point, .whole = true},
+                                                                {.name = "avoidance.gain", .values = gain}})
+                                             .csv());
 }
 
 TEST(CampaignInBrowser, OpensAsOneFileAndSortsFiltersAndSelects) {
@@ -94,7 +95,7 @@ TEST(CampaignInBrowser, OpensAsOneFileAndSortsFiltersAndSelects) {
     by_time[static_cast<size_t>(i)] = i;
     if (i % 2 == 1 && i % 4 == 1) collided.push_back(i);
   }
-  const auto time = [&](int i) { return records[static_cast<size_t>(i)].result.at("flight_time_s").get<double>(); };
+  const auto time = [&](int i) { return records[static_cast<size_t>(i)].result->flight.flight_time_s; };
   std::ranges::sort(by_time, {}, time);
   EXPECT_EQ(page.value.at("rising"), by_time);
   std::ranges::reverse(by_time);
@@ -142,9 +143,9 @@ TEST(CampaignInBrowser, ListsFlightsWithADifferentOutcome) {
   const TemporaryFolder folder;
   auto records = made_up(20, 6);
   write_sweep(folder.path() / "before", records);
-  records[4].result["outcome"] = "collided";
-  records[4].result["checks"][0]["passed"] = false;
-  records[4].result["min_obstacle_clearance_m"] = -0.25;
+  records[4].result->flight.outcome = Outcome::collided;
+  records[4].result->flight.checks[0].passed = false;
+  records[4].result->flight.closest_obstacle.distance_m = -0.25;
   records[9].order.id = "flights/other";  // its scenario and seed are not unique
   records[10].order.id = "flights/new";
   records[10].order.seed = 77;
@@ -175,7 +176,7 @@ TEST(AgainstData, MatchesFlightsWithOtherSettingsByScenarioAndSeed) {
   const auto data = against_data(read_flights(folder.path() / "now"), read_flights(folder.path() / "before"));
   EXPECT_THAT(data.at("gone"), IsEmpty());
   for (size_t i = 0; i < records.size(); ++i) {
-    EXPECT_EQ(data.at("flights")[i].at("time_s"), records[i].result.at("flight_time_s")) << i;
+    EXPECT_EQ(data.at("flights")[i].at("time_s"), records[i].result->flight.flight_time_s) << i;
   }
 }
 

@@ -17,8 +17,9 @@ using Json = nlohmann::ordered_json;
 
 FlightRecord made_up(bool collided, double figure) {
   FlightRecord record{.status = FlightRecord::Status::flown};
-  record.result = {
-      {"outcome", collided ? "collided" : "reached"}, {"flight_time_s", figure}, {"min_obstacle_clearance_m", figure}};
+  FlightResult& result = record.result.emplace().flight;
+  result.outcome = collided ? Outcome::collided : Outcome::reached;
+  result.flight_time_s = result.closest_obstacle.distance_m = figure;
   return record;
 }
 
@@ -41,13 +42,13 @@ TEST(WorstFlights, AreNotBetterThanOmittedFlights) {
         EXPECT_FALSE(chosen.contains(i));
         continue;
       }
-      const bool collided = records[i].result.at("outcome") == "collided";
+      const bool collided = records[i].result->flight.outcome == Outcome::collided;
       ++eligible[collided];
       taken[collided] += chosen.contains(i);
       for (size_t other = 0; other < records.size(); ++other) {
         if (chosen.contains(i) || !chosen.contains(other)) continue;
-        if (records[other].result.at("outcome") != records[i].result.at("outcome")) continue;
-        EXPECT_LE(records[other].result.at("flight_time_s"), records[i].result.at("flight_time_s"));
+        if (records[other].result->flight.outcome != records[i].result->flight.outcome) continue;
+        EXPECT_LE(records[other].result->flight.flight_time_s, records[i].result->flight.flight_time_s);
       }
     }
     EXPECT_EQ(chosen.size(), std::min(count, eligible[0] + eligible[1]));

@@ -122,7 +122,7 @@ TEST(Leaderboard, CellsNotFlownYetAreMissingAndDoNotCountForDifficulty) {
   }
   records[1].status = FlightRecord::Status::failed;
   write_leaderboard(folder.path(), board);
-  write_file_whole(folder.path() / "batch.csv", csv_text(flight_table(records)));
+  write_file_whole(folder.path() / "batch.csv", flight_table(records).csv());
   const Json data = leaderboard_data(folder.path(), read_flights(folder.path()));
   EXPECT_FALSE(cell(data, "later", "m").contains("passed"));
   EXPECT_EQ(cell(data, "lost", "m").at("broken"), 1);

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 
 #include "sim/pages/report.h"
-#include "sim/record/csv_table.h"
 #include "sim/record/result_files.h"
+#include "sim/record/table.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/pages/browser.h"
 #include "tests/sim/record/fake_flight.h"
@@ -157,7 +157,7 @@ TEST(ReplayInBrowser, PlacesTheVehicleAtItsTruePose) {
     return places;)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.requests, IsEmpty());
-  const CsvTable table(run.path() / "trajectory.csv");
+  const Table table(run.path() / "trajectory.csv");
   const auto column = [&](const char* name) { return table.numbers(name); };
   const auto t_s = column("t_s");
   constexpr double kRoundingM = 3e-3;  // 1 mm of position, and 0.1 mrad of attitude at 4 m

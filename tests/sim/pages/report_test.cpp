@@ -11,12 +11,12 @@
 #include <random>
 #include <regex>
 
+#include "sim/config/whole_file.h"
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/result_files.h"
-#include "sim/record/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
@@ -59,14 +59,14 @@ class Tables {
   explicit Tables(const Flight& flight)
       : trajectory_(trajectory_columns(flight)),
         decisions_(decision_columns(flight)),
-        result_(result_data({.scenario = "name"}, flight.result)) {}
-  const ColumnTable& trajectory() const { return trajectory_; }
-  const ColumnTable& decisions() const { return decisions_; }
-  const nlohmann::ordered_json& result() const { return result_; }
+        result_{.info = {.scenario = "name"}, .flight = flight.result} {}
+  const Table& trajectory() const { return trajectory_; }
+  const Table& decisions() const { return decisions_; }
+  const RunResult& result() const { return result_; }
 
  private:
-  ColumnTable trajectory_, decisions_;
-  nlohmann::ordered_json result_;
+  Table trajectory_, decisions_;
+  RunResult result_;
 };
 
 const Panel& panel(const std::vector<Panel>& panels, std::string_view title) {

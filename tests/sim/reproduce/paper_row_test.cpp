@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "sim/record/csv_table.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
+#include "sim/record/table.h"
 #include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
@@ -21,23 +21,23 @@ FlightRecord flown(const std::string& group, uint64_t seed, const std::string& o
   FlightRecord record{.status = FlightRecord::Status::flown};
   record.order = {.id = group + "/seed" + std::to_string(seed), .group = group, .scenario = group + ".yaml"};
   record.order.seed = seed;
-  record.result = {{"outcome", outcome},
-                   {"build", "b1"},
-                   {"min_clearance_m", clearance_m},
-                   {"goal_distance_m", 3.0},
-                   {"metrics", nlohmann::ordered_json::object()},
-                   {"checks", nlohmann::ordered_json::array()}};
+  RunResult& result = record.result.emplace();
+  result.info.build = "b1";
+  result.flight.outcome = parse_outcome(outcome).value();
+  result.flight.closest_obstacle.distance_m = clearance_m;
+  result.flight.closest_ground.distance_m = std::numeric_limits<double>::infinity();
+  result.flight.goal_distance_m = 3.0;
   return record;
 }
 
 FlightRecord with_metric(FlightRecord record, double value) {
-  record.result["metrics"]["m"] = value;
+  record.result->flight.metrics = {{"m", value, ""}};
   return record;
 }
 
 FlightRecord not_flown(FlightRecord record, FlightRecord::Status status) {
   record.status = status;
-  record.result = nullptr;
+  record.result.reset();
   return record;
 }
 
@@ -66,14 +66,14 @@ TEST(MeasuredFigure, EqualsBruteForceOverTheFlightsWithoutAFault) {
       FlightRecord record = flown(is_a ? "a" : "b", seed, hit ? "collided" : "reached", clearance(random));
       const auto fate = random() % 6;
       if (fate == 0) record = not_flown(record, FlightRecord::Status::missing);
-      if (fate == 1) record.result["outcome"] = "fault";
+      if (fate == 1) record.result->flight.outcome = Outcome::fault;
       records.push_back(record);
       if (!is_a) continue;
       ++asked;
       flew += fate == 0 ? 0 : 1;
       faulted += fate == 1 ? 1 : 0;
       if (fate <= 1) continue;
-      clearances.push_back(record.result["min_clearance_m"].get<double>());
+      clearances.push_back(record.result->flight.closest_obstacle.distance_m);
       collided += hit ? 1.0 : 0.0;
     }
     const PaperOutcome outcome = paper_outcome({}, "", records);
@@ -200,7 +200,7 @@ TEST_F(PaperRows, DoNotAcceptATimeoutAsAFlightWithoutContact) {
   EXPECT_EQ(stuck.holds, false);
   EXPECT_EQ(stuck.modified_words(), "0 of 2");
   EXPECT_THAT(stuck.flights_words(), HasSubstr("1 not finished"));
-  hovers.result["goal_distance_m"] = nullptr;  // without a goal, the full time is the required end
+  hovers.result->flight.goal_distance_m.reset();  // without a goal, the full time is the required end
   EXPECT_EQ(row(hits, {reached, hovers}).holds, true);
 }
 
@@ -230,14 +230,14 @@ TEST_F(PaperRows, VariantsDoNotAffectTheVerdict) {
 
 TEST_F(PaperRows, ListBuildsAndUsedTruth) {
   FlightRecord other = flown("a", 2, "reached", 1.0);
-  other.result["build"] = "b2";
-  other.result["truth_used"] = {"camera 'front': projected corners"};
+  other.result->info.build = "b2";
+  other.result->flight.truth_used = {"camera 'front': projected corners"};
   const RowOutcome result = row(hits, {flown("a", 1, "reached", 1.0), other});
   EXPECT_THAT(result.builds, ElementsAre("b1", "b2"));
   EXPECT_THAT(result.flights_words(), HasSubstr("truth used: camera 'front': projected corners"));
   const TemporaryFolder folder;
   write_file_whole(folder.path() / "rows.csv", rows_csv({{paper, {result}}}));
-  const CsvTable table(folder.path() / "rows.csv");
+  const Table table(folder.path() / "rows.csv");
   EXPECT_EQ(table.words("build")[0], "b1; b2");
   EXPECT_EQ(table.words("truth_used")[0], "camera 'front': projected corners");
   EXPECT_EQ(table.numbers("with_figure")[0], 2);

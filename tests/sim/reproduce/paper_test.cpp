@@ -7,7 +7,7 @@
 
 #include "sim/batch/seeds.h"
 #include "sim/config/input_error.h"
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 #include "sim/reproduce/calculations.h"
 #include "sim/reproduce/outcome.h"
 #include "sim/sweep/sweep_file.h"

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
 
@@ -47,7 +47,7 @@ TEST_F(Reproduce, PrintsEachFigureAndFailsIfOneDoesNotHold) {
   // No flight reaches the goal in a tenth of a second: "no contact" is not enough.
   EXPECT_THAT(end.out, HasSubstr("| collided | none | at most 0 | - | - | 0 of 5 | - | 5, 5, 0, 5; 5 not finished |"));
   EXPECT_THAT(end.out, HasSubstr("- it flies faster\n"));
-  const CsvTable rows(folder.path() / "out/reproduction.csv");
+  const Table rows(folder.path() / "out/reproduction.csv");
   EXPECT_THAT(rows.words("holds"), ElementsAre("", "no", "no"));
   EXPECT_THAT(rows.numbers("required"), ElementsAre(3, 5, 2));
   EXPECT_THAT(rows.numbers("with_figure"), ElementsAre(3, 5, 2));

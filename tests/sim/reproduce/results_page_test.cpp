@@ -5,8 +5,8 @@
 #include <regex>
 #include <sstream>
 
+#include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
-#include "sim/record/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {

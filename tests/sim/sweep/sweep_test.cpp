@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "sim/record/csv_table.h"
+#include "sim/record/table.h"
 #include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
@@ -27,7 +27,7 @@ class Sweep : public ::testing::Test {
 TEST_F(Sweep, GridFliesEveryCombinationAndSeed) {
   const CommandEnd end = folder.hedgehop("sweep sweep.yaml --out out");
   ASSERT_EQ(end.status, 0) << end.err;
-  const CsvTable table(folder.path() / "out/sweep.csv");
+  const Table table(folder.path() / "out/sweep.csv");
   ASSERT_EQ(table.rows(), 12u);
   EXPECT_THAT(table.numbers("avoidance.speed"), ElementsAre(.5, .5, .5, .5, 1.25, 1.25, 1.25, 1.25, 2, 2, 2, 2));
   EXPECT_THAT(table.numbers("control_rate"), ElementsAre(50, 50, 100, 100, 50, 50, 100, 100, 50, 50, 100, 100));
@@ -43,7 +43,7 @@ TEST_F(Sweep, SqliteHoldsTheSameTableAsTheCsv) {
   sqlite3_stmt* statement = nullptr;
   ASSERT_EQ(sqlite3_prepare_v2(database, "SELECT path_length_m, trajectory_hash FROM flights", -1, &statement, nullptr),
             SQLITE_OK);
-  const CsvTable table(folder.path() / "out/sweep.csv");
+  const Table table(folder.path() / "out/sweep.csv");
   size_t row = 0;
   for (; sqlite3_step(statement) == SQLITE_ROW; ++row) {
     ASSERT_LT(row, table.rows());
@@ -121,7 +121,7 @@ TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   ASSERT_EQ(end.status, 0) << end.err;
   const auto optimum = folder.json("out/optimum.json");
   EXPECT_GT(std::stod(optimum.at("values").at("avoidance.speed").get<std::string>()), 0.95);
-  const CsvTable table(folder.path() / "out/sweep.csv");
+  const Table table(folder.path() / "out/sweep.csv");
   double best = 1e9;
   const auto distances = table.numbers("goal_distance_m");
   for (size_t i = 0; i < distances.size(); i += 2) best = std::min(best, 0.5 * (distances[i] + distances[i + 1]));
@@ -147,7 +147,7 @@ TEST_F(Sweep, InterruptedOptimizerKeepsTheTableOfItsPoints) {
       "echo x >> flown.txt; if [ $(wc -l < flown.txt) = 3 ]; then kill -INT $PPID; exec sleep 1000; fi; fly \"$@\"");
   const CommandEnd end = folder.hedgehop("sweep best.yaml --out out --program " + worker);
   EXPECT_EQ(end.status, 128 + SIGINT) << end.err;
-  EXPECT_EQ(CsvTable(folder.path() / "out/sweep.csv").rows(), 2u);
+  EXPECT_EQ(Table(folder.path() / "out/sweep.csv").rows(), 2u);
 }
 
 TEST_F(Sweep, SlurmScriptFliesOneShardPerTask) {

@@ -8,28 +8,28 @@ namespace {
 
 TEST(FlightTable, MetricsOfWallTimeAreAmongTheTimesByKindNotByName) {
   FlightRecord record{.status = FlightRecord::Status::flown};
-  record.result = {{"outcome", "reached"},
-                   {"metrics", {{"landmarks", 8.0}, {"filter_total", 12.5}, {"delay_ms", 40.0}}},
-                   {"metric_units", {{"landmarks", ""}, {"filter_total", "ms"}, {"delay_ms", "ms"}}},
-                   {"metric_kinds", {{"landmarks", "module"}, {"filter_total", "wall_time"}, {"delay_ms", "judged"}}},
-                   {"checks", nlohmann::ordered_json::array()}};
+  record.result.emplace();
+  record.result->flight.outcome = Outcome::reached;
+  record.result->flight.metrics = {{"landmarks", 8.0, "", FigureKind::module},
+                                   {"filter_total", 12.5, "ms", FigureKind::wall_time},
+                                   {"delay_ms", 40.0, "ms", FigureKind::judged}};
   const Table table = flight_table({record});
-  const auto column = [&](const char* name) { return column_index(table, name); };
-  ASSERT_LT(column("metric.landmarks"), table.columns.size());
-  ASSERT_LT(column("metric.delay_ms"), table.columns.size());
-  EXPECT_EQ(column("metric.filter_total"), table.columns.size());
-  ASSERT_LT(column("time.filter_total"), table.columns.size());
-  EXPECT_EQ(std::get<double>(table.rows[0][column("time.filter_total")]), 12.5);
-  EXPECT_EQ(table.columns[column("time.filter_total")].unit, "ms");
-  EXPECT_EQ(table.columns[column("time.filter_total")].kind, FigureKind::wall_time);
-  EXPECT_EQ(table.columns[column("metric.landmarks")].kind, FigureKind::module);
-  EXPECT_EQ(table.columns[column("metric.delay_ms")].kind, FigureKind::judged);
+  ASSERT_TRUE(table.has("metric.landmarks"));
+  ASSERT_TRUE(table.has("metric.delay_ms"));
+  EXPECT_FALSE(table.has("metric.filter_total"));
+  ASSERT_TRUE(table.has("time.filter_total"));
+  EXPECT_EQ(table.numbers("time.filter_total"), std::vector<double>{12.5});
+  EXPECT_EQ(table.column("time.filter_total").unit, "ms");
+  EXPECT_EQ(table.column("time.filter_total").kind, FigureKind::wall_time);
+  EXPECT_EQ(table.column("metric.landmarks").kind, FigureKind::module);
+  EXPECT_EQ(table.column("metric.delay_ms").kind, FigureKind::judged);
 }
 
 TEST(FlightTable, StoresColumnsThatDifferOnlyInCase) {
   Table table;
-  for (const char* name : {"AA", "aa", "Aa", "b"}) table.columns.push_back({.name = name});
-  table.rows = {{int64_t{1}, int64_t{2}, int64_t{3}, int64_t{4}}};
+  double number = 0.0;
+  for (const char* name : {"AA", "aa", "Aa", "b"})
+    table.add({.name = name, .values = std::vector{++number}, .whole = true});
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "case.sqlite";
   write_sqlite(file, table);
   sqlite3* database = nullptr;

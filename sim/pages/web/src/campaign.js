@@ -56,7 +56,7 @@ function fillHead(host, data, table) {
     `${all.passed} of ${all.ended}; 95 % interval ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
   tile('reached, timeout', `${all.reached}, ${all.timeout}`, `${all.broken} with a fault or no result, ${all.missing} missing`);
-  tile('minimum clearance', meters(all.least_clearance_m), `to obstacles; median over flights ${meters(all.median_clearance_m)}`);
+  tile('minimum clearance', meters(all.min_clearance_m), `to obstacles; median over flights ${meters(all.median_clearance_m)}`);
   tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights flown');
 }
 
@@ -70,7 +70,7 @@ function fillGroups(host, groups) {
     const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
       [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
       ...[g.reached, g.collided, g.timeout, g.broken, g.missing].map((n) => [String(n), 'number']),
-      [fixed(g.least_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
+      [fixed(g.min_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
     const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
     span.style.left = 100 * g.low + '%';
     span.style.width = 100 * (g.high - g.low) + '%';

@@ -1,4 +1,4 @@
-#include "sim/record/whole_file.h"
+#include "sim/config/whole_file.h"
 
 #include "sim/config/input_error.h"
 

@@ -1,4 +1,4 @@
-#include "sim/record/json_number.h"
+#include "sim/flight/json_number.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,62 @@
+#include "sim/batch/group_verdict.h"
+
+#include <gmock/gmock.h>
+
+#include "sim/config/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(FlightsToShow, IsTheSmallestNumberThatTheIntervalAccepts) {
+  for (const double confidence : {0.5, 0.8, 0.95, 0.99, 0.999}) {
+    for (const double rate : {0.0, 0.1, 0.5, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999, 0.99999, 0.999999, 0.9999999}) {
+      const int64_t flights = flights_to_show(rate, confidence);
+      EXPECT_GE(wilson_interval({flights, flights}, confidence).low, rate) << rate << " at " << confidence;
+      if (flights == 1) continue;
+      EXPECT_LT(wilson_interval({flights - 1, flights - 1}, confidence).low, rate) << rate << " at " << confidence;
+    }
+  }
+}
+
+std::string refusal(double rate, int64_t flights) {
+  const GroupSummary group{.group = "city", .flights = flights};
+  try {
+    require_decidable({SuccessRateCheck{.at_least = rate}}, {group});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RequireDecidable, NamesTheNumberOfFlightsThatCouldShowTheRate) {
+  const int64_t needed = flights_to_show(0.9, 0.95);
+  EXPECT_EQ(refusal(0.9, needed), "");
+  EXPECT_THAT(refusal(0.9, needed - 1), HasSubstr(std::to_string(needed)));
+}
+
+TEST(RequireDecidable, RefusesARateThatNoNumberOfFlightsShows) {
+  EXPECT_THAT(refusal(1.0, 1'000'000), HasSubstr("no finite number of flights"));
+  EXPECT_THAT(refusal(0.99999999999, 10), HasSubstr("it takes"));
+}
+
+TEST(VerdictOf, IsOneDecisionForEveryRecord) {
+  const auto record = [](Outcome outcome, std::vector<CheckResult> checks) {
+    FlightRecord flown{.status = FlightRecord::Status::flown};
+    flown.result.emplace();
+    flown.result->flight.outcome = outcome;
+    flown.result->flight.checks = std::move(checks);
+    return flown;
+  };
+  const CheckResult good{.name = "a", .passed = true}, bad{.name = "b", .passed = false};
+  EXPECT_EQ(verdict_of(record(Outcome::collided, {good})), Verdict::passed);
+  EXPECT_EQ(verdict_of(record(Outcome::reached, {good, bad})), Verdict::failed);
+  EXPECT_EQ(verdict_of(record(Outcome::reached, {})), Verdict::unchecked);
+  EXPECT_EQ(verdict_of(record(Outcome::fault, {good})), Verdict::fault);
+  EXPECT_EQ(verdict_of(FlightRecord{}), Verdict::not_flown);
+  EXPECT_EQ(verdict_of(FlightRecord{.status = FlightRecord::Status::failed}), Verdict::not_flown);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
