@@ -21,7 +21,7 @@ scenes::Scene post_on_box(double post_m) {
   scenes::mesh::MeshBuilder mesh("opaque");
   mesh.begin_chunk(false);
   const auto add = [&](const Eigen::Vector3d& low_W, const Eigen::Vector3d& high_W) {
-    for (const scenes::mesh::Panel& panel : scenes::mesh::side_panels({low_W, high_W})) mesh.add(panel, {}, 0);
+    for (const scenes::mesh::TexturedPanel& panel : scenes::mesh::side_panels({low_W, high_W})) mesh.add(panel, {}, 0);
   };
   add({0.0, -0.5 * post_m, -3.0}, {post_m, 0.5 * post_m, -2.0});
   const size_t box_from = mesh.index_count();

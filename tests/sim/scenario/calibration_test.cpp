@@ -14,7 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using vision::uniform;
 
 constexpr double kPx = 1e-9;
 
