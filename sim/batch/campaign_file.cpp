@@ -112,7 +112,7 @@ class Gatherer {
     }
   }
 
-  /// What an earlier batch.json says beside its flights. @param conduct  empty of an earlier version.
+  /// Takes over the conduct of an earlier batch.json. @param conduct  empty if an earlier version wrote the file.
   void recall(const fs::path& batch_json, const nlohmann::ordered_json& conduct) {
     if (conduct.empty()) return;
     if (!conduct.at("rule").is_null()) {
@@ -177,7 +177,8 @@ class Gatherer {
     batch_.leaderboard = std::move(board);
   }
 
-  /// A folder for a scenario with its overrides; the group is made to differ where another file has the same name.
+  /// Returns a folder for a scenario with its overrides. The group gets a distinct name if another file has the same
+  /// name.
   std::string claim(Order& order) {
     const std::string key = order.scenario.string() + "\n" + fmt::format("{}", fmt::join(order.overrides, "\n"));
     if (const auto known = folders_.find(key); known != folders_.end()) {

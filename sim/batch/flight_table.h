@@ -11,20 +11,21 @@
 
 namespace hedgehop::sim {
 
-/// One row a record, in their order: what was ordered, how it ended, the result's figures, the metrics (`metric.NAME`),
-/// the checks' values (`check.NAME`), the command that flies it again, and last the columns of FigureKind::wall_time,
-/// metrics among them (`time.NAME`). Columns depend on the records alone, never on the order in which flights ended.
+/// Returns one row per record, in their order: the order, the outcome, the figures of the result, the metrics
+/// (`metric.NAME`), the values of the checks (`check.NAME`), the re-run command, and last the columns of
+/// FigureKind::wall_time with their metrics (`time.NAME`). Columns depend on the records alone, never on the order in
+/// which flights ended.
 Table flight_table(const std::vector<FlightRecord>& records, const std::vector<Table::Column>& extra = {});
 
-/// A judged figure of a result by its column of flight_table(), as a number; none for another name. A clearance is
-/// infinite if nothing was within reach.
+/// Returns a judged figure of a result by its column of flight_table(), or none for an unknown name. A clearance is
+/// infinite if no obstacle was within the search range.
 std::optional<double> figure_of(const FlightResult& result, std::string_view column);
 
-/// What a campaign's folder holds of its flights.
+/// The flights of a campaign's folder.
 struct FlightList {
   bool is_sweep = false;              ///< or a search: its points have columns of their own
   Table table;                        ///< sweep.csv, falsify.csv or batch.csv
-  std::vector<FlightRecord> records;  ///< one a row: from the table, enough for summarize()
+  std::vector<FlightRecord> records;  ///< one per row, read from the table; sufficient for summarize()
 };
 
 /// Whether the folder is a batch's, a sweep's or a search's.

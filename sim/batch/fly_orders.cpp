@@ -19,7 +19,7 @@ std::vector<std::string> worker_command(const Order& order, const FlyOptions& op
   return command;
 }
 
-/// What a former flight left of an order; missing when it left nothing.
+/// Returns the record of an earlier flight of an order; its status is missing if there is no result.
 FlightRecord recall(const Order& order, const std::filesystem::path& folder, bool other_builds) {
   FlightRecord record{.order = order};
   if (auto result = result_left_by(order, folder, other_builds)) {

@@ -47,7 +47,7 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
   if (before.trials == 0 || group.success.trials == 0) {
     verdict.value = verdict.limit = std::nan("");
     verdict.words =
-        fmt::format("nothing to compare: {} flights now, {} in {}", group.success.trials, before.trials, check.than);
+        fmt::format("no flights to compare: {} now, {} in {}", group.success.trials, before.trials, check.than);
     return verdict;
   }
   const std::string counts = fmt::format("{} of {} passed, {} of {} before", group.success.successes,
@@ -57,8 +57,8 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
     verdict.value = newcombe_difference(group.success, before, 2.0 * check.confidence - 1.0).low;
     verdict.limit = -*check.margin;
     verdict.passed = verdict.value >= verdict.limit;
-    verdict.words = fmt::format("{}; with {:g} % confidence the rate changed by {:+.3f} or better, asked {:+g}", counts,
-                                100.0 * check.confidence, verdict.value, verdict.limit);
+    verdict.words = fmt::format("{}; with {:g} % confidence the rate changed by {:+.3f} or better; required: {:+g}",
+                                counts, 100.0 * check.confidence, verdict.value, verdict.limit);
   } else {
     verdict.value = fisher_lower_tail(group.success, before);
     verdict.limit = 1.0 - check.confidence;

@@ -35,14 +35,14 @@ std::vector<std::string> run_arguments(const Order& order);
 /// "hedgehop run FILE --seed 3 --set 'a.b=1'", ready for a POSIX shell.
 std::string rerun_command(const Order& order);
 
-/// A word quoted for a POSIX shell where it must be.
+/// Returns a word, quoted for a POSIX shell if necessary.
 std::string shell_quoted(const std::string& word);
 
-/// What became of an order.
+/// The end of an order.
 struct FlightRecord {
   enum class Status {
-    flown,   ///< it left a result
-    failed,  ///< it left none: refused, crashed, over its limit, killed; cause says which
+    flown,   ///< a result exists
+    failed,  ///< no result: refused, crashed, over its time limit or killed; `cause` has the reason
     missing  ///< not flown yet
   };
   Order order;
@@ -62,21 +62,21 @@ std::string outcome_words(const FlightRecord& record);
 /// The identity of the build that flew it, as its result names it; "" when it has none.
 std::string build_of(const FlightRecord& record);
 
-/// What its module got of the truth, as its result lists it; empty for real sensors alone.
+/// Returns the truth that its module received, as listed in its result; empty if it received only real sensors.
 std::vector<std::string> truth_used(const FlightRecord& record);
 
-/// Returns a line that says how many flights used the truth, and which, else "".
+/// Returns a line with the number of flights that used the truth, and the kinds of truth, else "".
 std::string truth_words(const std::vector<FlightRecord>& records);
 
 /// The builds that flew them.
 std::set<std::string> builds_of(const std::vector<FlightRecord>& records);
 
-/// Returns a line that names the builds when flights of several stand beside each other, else "".
+/// Returns a line that names the builds if the flights come from several builds, else "".
 std::string several_builds_words(const std::vector<FlightRecord>& records);
 
-/// The result that a flight of this very order left in its folder: same resolved scenario, seed, input files and build,
-/// and whole. None for anything else, so that it is flown (again).
-/// @param folder  of the flight. @param other_builds  whether a result of another build will do.
+/// Returns the complete result of an earlier flight of the same order: equal resolved scenario, seed, input files and
+/// build. Returns none otherwise, so that the order is flown.
+/// @param folder  of the flight. @param other_builds  whether results of other builds are accepted.
 std::optional<RunResult> result_left_by(const Order& order, const std::filesystem::path& folder, bool other_builds);
 
 }  // namespace hedgehop::sim

@@ -171,8 +171,8 @@ WorkerEnd Worker::join() {
   siginfo_t info{};
   while (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
-  ::kill(-pid_, SIGKILL);  // what it may have left behind; its own number is not
-                           // free before the next call
+  ::kill(-pid_, SIGKILL);  // processes that it may have left running; its process
+                           // id is not reused before the next call
   int status = 0;
   rusage usage{};
   while (::wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {

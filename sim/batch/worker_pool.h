@@ -67,7 +67,7 @@ class Worker {
   /// Starts `command` (an absolute path and its arguments) with the given
   /// signal mask. Throws std::system_error when no process can be made.
   Worker(const std::vector<std::string>& command, const sigset_t& mask);
-  ~Worker();  ///< kills what still runs
+  ~Worker();  ///< kills running processes
   Worker(Worker&& other) noexcept;
   Worker& operator=(Worker&&) = delete;
 
@@ -77,7 +77,7 @@ class Worker {
 
   bool killed() const { return killed_.has_value(); }
 
-  /// Reads what standard error holds now.
+  /// Reads the available standard error output.
   void take_errors();
   /// Ends the whole process group; `why` is how the end will be reported.
   void kill(WorkerEnd::Kind why);

@@ -21,7 +21,7 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// The results of a batch that may have stopped early: what lies past a group's stop is left out.
+/// Returns the results of a batch that may have stopped early, without the flights past the stop of their group.
 BatchOutcome conclude(std::vector<FlightRecord> records, const std::optional<SequentialCount>& count, double limit_s) {
   BatchOutcome outcome{.records = std::move(records)};
   if (!count) return outcome;

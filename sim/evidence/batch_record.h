@@ -9,11 +9,11 @@
 
 namespace hedgehop::sim {
 
-/// What became of a batch.
+/// The results of a batch.
 struct BatchOutcome {
   std::vector<FlightRecord> records;  ///< under a stopping rule, none past its group's stop
   std::vector<GroupVerdict> verdicts;
-  std::vector<SequentialResult> sequential;  ///< one a group under a stopping rule; else empty
+  std::vector<SequentialResult> sequential;  ///< one per group under a stopping rule, else empty
   Conduct conduct;
 
   /// Interval (95 %) of a success rate: Wilson's for a number of flights planned in advance; under a stopping rule one
@@ -26,18 +26,16 @@ struct BatchOutcome {
 /// flights.
 Standing verdict_of(const BatchOutcome& outcome);
 
-/// Text of batch.json: version, build, how it was to be flown, groups with the success rate's interval (95 %), verdicts
-/// over the seeds, what a stopping rule found, and every flight with its order, status, cause, re-run command and
-/// result.
+/// Returns the text of batch.json: version, build, conduct, groups with the interval (95 %) of their success rate,
+/// verdicts over the seeds, results of the stopping rule, and every flight with its order, status, cause, re-run
+/// command and result.
 std::string batch_json(const BatchOutcome& outcome, const std::string& version);
 
-/// The groups as a table in Markdown, below a line that names the builds where there are several, for people and for
-/// documents; then the flights that did not pass, each with its cause and the command that re-simulates it; then what
-/// holds over the seeds.
+/// Returns the groups as a Markdown table, below a line that names the builds if there are several; then the flights
+/// that did not pass, each with its cause and re-run command; then the verdicts over the seeds.
 std::string summary_text(const BatchOutcome& outcome);
 
-/// What failed in a flight, one line: its cause, or the checks that do not hold with value and limit; "" when it
-/// passed.
+/// Returns one line with the cause of a failed flight, or its failed checks with value and limit; "" if it passed.
 std::string failure_words(const FlightRecord& record);
 
 }  // namespace hedgehop::sim

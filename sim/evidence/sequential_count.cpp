@@ -116,7 +116,7 @@ SequentialResult SequentialCount::result_of(const Group& group) const {
     const bool all = result.counted == result.planned;
     result.words += all ? "; more seeds may be added, with --resume" : "; interrupted before the last seed";
   } else if (result.counted < result.planned) {
-    result.words += fmt::format("; what flew past seed {} does not count", *result.last_seed);
+    result.words += fmt::format("; flights past seed {} do not count", *result.last_seed);
   }
   return result;
 }

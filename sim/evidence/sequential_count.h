@@ -11,7 +11,7 @@
 
 namespace hedgehop::sim {
 
-/// What a stopping rule found for one group of flights.
+/// The result of a stopping rule for one group of flights.
 struct SequentialResult {
   std::string group, claim;
   Standing standing = Standing::undecided;
@@ -20,24 +20,24 @@ struct SequentialResult {
   int64_t counted = 0;                ///< of those, the ones up to the stop
   std::optional<uint64_t> last_seed;  ///< that counted; none without any
   nlohmann::ordered_json figures;     ///< counts, evidence, interval, method: of the tally
-  std::string words;                  ///< the whole sentence
-  double value = 0.0, bound = 0.0;    ///< what a verdict names
+  std::string words;                  ///< the complete sentence
+  double value = 0.0, bound = 0.0;    ///< value and bound of the verdict
 };
 nlohmann::ordered_json to_json(const SequentialResult& result);
-/// The result as a verdict over the seeds: it holds where the claim is shown.
+/// Returns the result as a verdict over the seeds, which passes if the claim is shown.
 GroupVerdict verdict_of(const SequentialResult& result);
 
-/// Counts flights in the order of their orders, not of their ends: a flight counts once all before it have ended, and
-/// the rule is looked at after each. What flights past the stop did changes nothing, so that the answer is the same for
-/// any number of workers and after an interruption. Flights that end early are no likelier to be counted.
+/// Counts flights in the order of their orders, not of their ends: a flight counts when all flights before it have
+/// ended, and the rule is evaluated after each. Flights past the stop have no effect. The result is therefore equal for
+/// any number of workers and after an interruption, and flights that end early are not more likely to be counted.
 class SequentialCount {
  public:
   /// @param orders  in the order in which they are to be flown. A claim about pairs takes the first order of a seed as
   /// base and the second as candidate, all in one group; else each group has its own count.
   SequentialCount(StoppingRule rule, const std::vector<Order>& orders);
 
-  /// A flight has ended, in whatever order. Returns whether it has decided its group, whose other flights count no
-  /// more.
+  /// Adds a flight that has ended; flights may end in any order. Returns whether it has decided its group. The other
+  /// flights of a decided group do not count.
   bool ended(const FlightRecord& record);
   /// Whether the flight may still count: its group is undecided.
   bool wanted(const Order& order) const;

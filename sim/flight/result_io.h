@@ -11,7 +11,7 @@
 /// result.json: its only writer and its only reader.
 namespace hedgehop::sim {
 
-/// Facts of a run besides the flight itself.
+/// Data of a run that are not part of the flight.
 struct RunInfo {
   std::string scenario;                       ///< the scenario's name
   uint64_t seed = 0;                          ///< of the run

@@ -81,15 +81,15 @@ class Table {
   size_t rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
   bool has(std::string_view name) const;
-  /// Returns the columns that add() has added: none of a table that is read from a file.
+  /// Returns the columns that add() has added; empty for a table that was read from a file.
   const std::vector<Column>& columns() const { return columns_; }
   /// Returns a column that add() has added. Throws as numbers().
   const Column& column(std::string_view name) const;
 
-  /// Returns a column as numbers: NaN where a field is empty. Throws std::runtime_error naming the column if it is
+  /// Returns a column as numbers; an empty field is NaN. Throws std::runtime_error naming the column if it is
   /// missing or a field is no number; for a table from a file, InputError naming file and line.
   std::vector<double> numbers(std::string_view name) const;
-  /// Returns a column as words: "" where a number is NaN. Throws as numbers() if it is missing.
+  /// Returns a column as words; a NaN is "". Throws as numbers() if it is missing.
   std::vector<std::string> words(std::string_view name) const;
 
   /// Returns the table as comma-separated values with a header line (RFC 4180). Numbers are the shortest that read back

@@ -131,7 +131,7 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   EXPECT_EQ(f.scene.density_pm2, r.scene.density_pm2);
 }
 
-TEST(ResultIo, RoundTripKeepsAbsentValuesAndMarksWhatIsNotFinite) {
+TEST(ResultIo, RoundTripKeepsAbsentAndNonFiniteValues) {
   FlightResult r;
   r.outcome = Outcome::timeout;
   r.closest_obstacle.distance_m = r.closest_ground.distance_m = kInfinity;
