@@ -99,10 +99,12 @@ TEST(Room, RejectsInvalidConfigs) {
   };
   using E = std::invalid_argument;
   EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: must be >= 1 m, got 0")));
-  EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }), ThrowsMessage<E>(HasSubstr("furniture: must be >= 0, got -1")));
+  EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }),
+              ThrowsMessage<E>(HasSubstr("furniture: must be >= 0, got -1")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = 200; }),
               ThrowsMessage<E>(HasSubstr("furniture: 200; valid: at most ")));
-  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 8; }), ThrowsMessage<E>(HasSubstr("texture_size: must be >= 64 px, got 8")));
+  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 8; }),
+              ThrowsMessage<E>(HasSubstr("texture_size: must be >= 64 px, got 8")));
 }
 
 }  // namespace

@@ -171,7 +171,8 @@ TEST(Urban, RejectsInvalidConfigs) {
   EXPECT_THAT(refused([](auto& c) { c.min_footprint = 0.0; }), ThrowsMessage<E>(HasSubstr("min_footprint")));
   EXPECT_THAT(refused([](auto& c) { c.max_footprint = 0.5; }), ThrowsMessage<E>(HasSubstr("footprint")));
   EXPECT_THAT(refused([](auto& c) { c.jitter = 1.5; }), ThrowsMessage<E>(HasSubstr("jitter: must be <= 1, got 1.5")));
-  EXPECT_THAT(refused([](auto& c) { c.keep_clear[0].radius_m = -1.0; }), ThrowsMessage<E>(HasSubstr("radius: must be >= 0 m, got -1")));
+  EXPECT_THAT(refused([](auto& c) { c.keep_clear[0].radius_m = -1.0; }),
+              ThrowsMessage<E>(HasSubstr("radius: must be >= 0 m, got -1")));
   EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 500; }), ThrowsMessage<E>(HasSubstr("texture_size: 500")));
 }
 
