@@ -7,7 +7,6 @@
 
 #include "sim/cli/commands.h"
 #include "sim/cli/number_options.h"
-#include "sim/cli/override_option.h"
 
 namespace hedgehop::sim::cli {
 namespace {

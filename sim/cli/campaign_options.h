@@ -2,8 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace hedgehop::sim::cli {
+
+/// Adds --set KEY.PATH=VALUE. Each --set takes exactly one value, so a scenario file may follow it.
+inline void add_overrides(CLI::App& command, std::vector<std::string>& overrides, const std::string& meaning) {
+  command.add_option("--set", overrides, meaning)->type_name("KEY.PATH=VALUE")->take_all()->allow_extra_args(false);
+}
 
 /// Declares the commands that fly many scenarios. Parsing stores the call of the selected command in `chosen`.
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen);

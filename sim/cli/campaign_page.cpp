@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "sim/cli/notice.h"
+#include "sim/cli/exit_status.h"
 #include "sim/pages/campaign_report.h"
 
 namespace hedgehop::sim::cli {

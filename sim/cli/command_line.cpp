@@ -1,5 +1,3 @@
-#include "sim/cli/command_line.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,9 +14,7 @@
 #include "sim/cli/features.h"
 #include "sim/cli/manual.h"
 #include "sim/cli/misspelling.h"
-#include "sim/cli/notice.h"
 #include "sim/cli/number_options.h"
-#include "sim/cli/override_option.h"
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/drawing.h"

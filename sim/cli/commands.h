@@ -204,4 +204,7 @@ struct ReportOptions {
 /// Writes the folder's report.html.
 int report(const ReportOptions& options);
 
+/// Runs the command line and prints errors to standard error. @return the exit status of the process.
+int run_command_line(int argc, char** argv);
+
 }  // namespace hedgehop::sim::cli

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/commands.h"
-#include "sim/cli/notice.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/config/input_error.h"
 #include "sim/export/export.h"

@@ -6,7 +6,6 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
-#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"

@@ -11,7 +11,6 @@
 #include "sim/cli/campaign_page.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
-#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "sim/cli/command_line.h"
+#include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 
 namespace {

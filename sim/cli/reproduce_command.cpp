@@ -12,7 +12,6 @@
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
-#include "sim/cli/notice.h"
 #include "sim/cli/progress.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/config/whole_file.h"

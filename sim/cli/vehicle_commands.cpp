@@ -16,7 +16,7 @@
 #include "dynamics/steady_flight.h"
 #include "dynamics/vehicle.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/notice.h"
+#include "sim/cli/exit_status.h"
 #include "sim/cli/shipped_files.h"
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"

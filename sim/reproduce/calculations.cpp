@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "sim/reproduce/centering_runs.h"
-#include "sim/reproduce/landmark_costs.h"
 #include "sim/reproduce/landmark_flights.h"
-#include "sim/reproduce/section_costs.h"
 
 namespace hedgehop::sim {
 

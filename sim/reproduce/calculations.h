@@ -24,4 +24,14 @@ const std::vector<Calculation>& calculations();
 const Calculation* find_calculation(std::string_view name);
 std::vector<std::string_view> calculation_names();
 
+/// Measures a choice among 3 x 3 to 27 x 27 sections of a 1280 x 720 depth map: `sections` in total, `decisions_hz`,
+/// `cost_ms` (medians, wall time) and `cost_over_3x3`, measured alternately. Source: [Perez2018] table 1.
+Columns section_costs();
+
+/// Measures the filter time per image for several numbers of landmarks: `landmarks` (8 to 1,000), `image_ms` (median
+/// over images, wall time), `speed` (at 10 Hz, as a multiple of real time), and `growth_8_to_35`, equal in every row.
+/// The lateral flight of [Shah2009] ch. 4 past random corners, all of them in the image. Source: [Shah2009] ch. 6, sec.
+/// on computational effort.
+Columns landmark_costs();
+
 }  // namespace hedgehop::sim

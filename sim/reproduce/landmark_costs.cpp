@@ -1,7 +1,6 @@
-#include "sim/reproduce/landmark_costs.h"
-
 #include "sim/fields/order_statistics.h"
 #include "sim/libm/random.h"
+#include "sim/reproduce/calculations.h"
 #include "sim/reproduce/corner_flight.h"
 
 namespace hedgehop::sim {

@@ -1,8 +1,7 @@
-#include "sim/reproduce/section_costs.h"
-
 #include <algorithm>
 #include <chrono>
 #include <opencv2/core.hpp>
+#include "sim/reproduce/calculations.h"
 
 #include "sim/fields/order_statistics.h"
 #include "vision/sections/section_search.h"
