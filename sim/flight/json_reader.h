@@ -22,8 +22,8 @@ struct RenamedKey {
   std::string before, now;
 };
 
-/// Reads the members of one JSON object. Every member has one type, and only numbers may be null. The functions throw
-/// InputError with the path of a key of another type.
+/// Reads the members of one JSON object. Every member has one type, and only numbers that may be unknown may be null.
+/// The functions throw InputError with the path of a key of another type.
 class JsonReader {
  public:
   JsonReader(const nlohmann::ordered_json& object, std::string path) : object_(object), path_(std::move(path)) {
@@ -62,6 +62,11 @@ class JsonReader {
     return value->get<double>();
   }
   double number(const char* key, double unknown = NAN) const { return optional_number(key).value_or(unknown); }
+  double finite_number(const char* key) const {
+    const std::optional<double> value = optional_number(key);
+    if (!value) refuse(key);
+    return *value;
+  }
   int64_t count(const char* key) const {
     const nlohmann::ordered_json* const value = find(key);
     if (value && !value->is_number()) refuse(key);

@@ -198,7 +198,7 @@ RunResult result_from_json(const Json& json) {
   flight.cause = result.text("cause");
   flight.truth_used = result.texts("truth_used");
   flight.failures = result.texts("failures");
-  flight.flight_time_s = result.number("flight_time_s");
+  flight.flight_time_s = result.finite_number("flight_time_s");
   flight.path_length_m = result.number("path_length_m");
   flight.mean_speed_mps = result.number("mean_speed_mps");
   flight.closest_obstacle = approach_from(result, "closest_obstacle", "min_obstacle_clearance_m");

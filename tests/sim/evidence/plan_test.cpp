@@ -70,12 +70,12 @@ TEST(PlanInBrowser, StatesTheSeedsAndThePlanOfTheRate) {
   };
   const std::string as_flown = facts();
   EXPECT_THAT(as_flown, HasSubstr("10 planned, 5 counted, 5 passed, 0 failed a check, 0 with a fault or no result"));
-  EXPECT_THAT(as_flown, HasSubstr("5 past the stop do not count"));
-  EXPECT_THAT(as_flown, HasSubstr("looked at after every flight"));
+  EXPECT_THAT(as_flown, HasSubstr("5 flights after the stop are not counted"));
+  EXPECT_THAT(as_flown, HasSubstr("evaluated after every flight"));
   EXPECT_THAT(as_flown, HasSubstr("Planned: 101:110. Parameters were chosen on: 1:100, 14 settings tried."));
-  EXPECT_THAT(as_flown, HasSubstr("as registeredYes."));
+  EXPECT_THAT(as_flown, HasSubstr("deviationsNone."));
   folder.write("plan.yaml", folder.read("plan.yaml") + "# a word\n");
-  EXPECT_THAT(facts(), HasSubstr("as registeredThe plan was changed after the flights."));
+  EXPECT_THAT(facts(), HasSubstr("deviationsThe plan was changed after the flights."));
 }
 
 /// Repeating failed flights is within the plan; a repetition that would undo a stop is rejected.

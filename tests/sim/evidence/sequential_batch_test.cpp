@@ -145,7 +145,7 @@ TEST(BatchUntil, RejectsBadRulesInOneLineBeforeAnyFlight) {
   for (const Row& row :
        {Row{"--until 'colision < 0.1'", "'colision < 0.1': no event 'colision'; did you mean 'collision'? "},
         Row{"--until 'collision < 0'", "'collision < 0': the limit of a rate must be > 0 and < 1"},
-        Row{"--until 'collision < 1'", "the limit of a rate lies between 0 and 1"},
+        Row{"--until 'collision < 1'", "the limit of a rate must be > 0 and < 1"},
         Row{"--until 'collision < x'", "'collision < x': 'x' is not a finite number"},
         Row{"--until 'collision'", "'collision': expected such as 'collision < 0.01'"},
         Row{"--until 'rate(min_clearence_m < 1) < 0.1'", "did you mean 'min_clearance_m'?"},

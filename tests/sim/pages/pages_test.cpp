@@ -124,7 +124,7 @@ TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
     const canvas = document.querySelector('.plot canvas'), {data} = canvas.getContext('2d').getImageData(0, 40, canvas.width, 1);
     const reddish = [...Array(canvas.width).keys()].map((x) => data[4 * x + 3] > 0 && data[4 * x] > data[4 * x + 1] + 8 && data[4 * x] > data[4 * x + 2] + 8);
     const spans = reddish.filter((red, x) => red && !reddish[x - 1]).length;
-    return [document.getElementById('verdict').textContent.includes('Set to fail: 2 s to 4 s: camera.front black; 8 s'),
+    return [document.getElementById('verdict').textContent.includes('Failures injected by the scenario: 2 s to 4 s: camera.front black; 8 s'),
             failuresOf({failures: ['2.5 s to 4 s: a off', '8 s to the end: b off', '60 s to the end: c off']}, 10), spans];)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value.at(0), true);

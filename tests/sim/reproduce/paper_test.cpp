@@ -73,7 +73,7 @@ TEST(PaperFile, FormerKeysAreRejectedWithTheirNewNames) {
               Contains(HasSubstr("its name is now 'claim'")));
   EXPECT_THAT(faults_of("rows: [{claim: w, flights: [a], column: wall_s, statistic: least}]"),
               Contains(HasSubstr("its name is now 'min'")));
-  EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: flights, label: l, x: [1], flights: [a], column: wall_s, "
+  EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: groups, label: l, x: [1], flights: [a], column: wall_s, "
                         "statistic: greatest}]}]"),
               Contains(HasSubstr("its name is now 'max'")));
 }
