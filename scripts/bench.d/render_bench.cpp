@@ -205,16 +205,12 @@ void differences(const scenes::Scene& scene, const Poses& poses) {
       off_depths += a == b || std::abs(a - b) <= kFarOffDepth * a ? 0.0 : 1.0;  // a == b: both infinite
     }
   }
-  const std::string prefix = "city, street: difference from OSMesa, ";
-  print({.scene = prefix + "mean", .unit = "levels", .tiles = levels / pixels, .goal = tiles_at_most(0.3)});
-  print({.scene = prefix + "over 8 levels",
-         .unit = "share",
-         .tiles = off_levels / pixels,
-         .goal = tiles_at_most(0.0005)});
-  print({.scene = prefix + "depth over 1e-3",
-         .unit = "share",
-         .tiles = off_depths / pixels,
-         .goal = tiles_at_most(2e-4)});
+  const std::string name = "city, street: off OSMesa, ";
+  print({.scene = name + "mean", .unit = "levels", .tiles = levels / pixels, .goal = tiles_at_most(0.3)});
+  print(
+      {.scene = name + "over 8 levels", .unit = "share", .tiles = off_levels / pixels, .goal = tiles_at_most(0.0005)});
+  print(
+      {.scene = name + "depth over 1e-3", .unit = "share", .tiles = off_depths / pixels, .goal = tiles_at_most(2e-4)});
 }
 
 /// Resident memory of this process, MiB.
