@@ -83,7 +83,7 @@ function(hedgehop_check_layers folder deps)
 endfunction()
 
 # hedgehop_test(<name> SRCS ... DEPS <folders> [LABEL unit|physics|vision|render|loop] [LONG <tests>]): one GoogleTest
-# program. Tests in LONG, which take about one second or more, get the label `long`; all others get LABEL.
+# program. Tests that match a pattern of LONG take about one second or more. They get the label `long`, all others LABEL.
 function(hedgehop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SRCS;DEPS;PACKAGES;LONG" ${ARGN})
   if(NOT arg_LABEL)
@@ -99,10 +99,22 @@ function(hedgehop_test name)
     string(REPLACE "/" "_" dep ${dep})
     target_link_libraries(${name} PRIVATE hedgehop_${dep})
   endforeach()
-  if(arg_LONG)
-    list(JOIN arg_LONG ":" long)
-    gtest_discover_tests(${name} TEST_FILTER ${long} PROPERTIES LABELS long DISCOVERY_TIMEOUT 60)
-    set(others TEST_FILTER -${long})
+  hedgehop_add_suites(${name} LABEL ${arg_LABEL} LONG ${arg_LONG})
+endfunction()
+
+# hedgehop_add_suites(<program> LABEL <label> [PREFIX <prefix>] [LONG <patterns>] [OMITTED <patterns>] [ENVIRONMENT <variable>]):
+# after each build of a GoogleTest program, lists its suites as tests of ctest.
+function(hedgehop_add_suites program)
+  cmake_parse_arguments(arg "" "LABEL;PREFIX;ENVIRONMENT" "LONG;OMITTED" ${ARGN})
+  list(JOIN arg_LONG ":" long)
+  list(JOIN arg_OMITTED ":" omitted)
+  set(include ${CMAKE_CURRENT_BINARY_DIR}/${arg_PREFIX}${program}_suites.cmake)
+  if(NOT EXISTS ${include})
+    file(WRITE ${include} "add_test([[${program}: not built]] false)\n")
   endif()
-  gtest_discover_tests(${name} ${others} PROPERTIES LABELS ${arg_LABEL} DISCOVERY_TIMEOUT 60)
+  add_custom_command(TARGET ${program} POST_BUILD VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D INCLUDE=${include} -D PREFIX=${arg_PREFIX}
+            -D LABEL=${arg_LABEL} -D "LONG=${long}" -D "OMITTED=${omitted}" -D "ENVIRONMENT=${arg_ENVIRONMENT}"
+            -P ${PROJECT_SOURCE_DIR}/cmake/add_suites.cmake)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
 endfunction()

@@ -20,6 +20,7 @@
 #include "sim/config/reader.h"
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
+#include "sim/fields/invalid_field.h"
 #include "sim/record/run_record.h"
 #include "sim/record/table.h"
 #include "sim/reproduce/paper.h"
@@ -132,7 +133,7 @@ void feed(const Reader& reader, std::string_view bytes) {
   try {
     reader.read(file);
   } catch (const std::invalid_argument& fault) {
-    if (typeid(fault) != typeid(std::invalid_argument)) throw;
+    if (typeid(fault) != typeid(std::invalid_argument) && typeid(fault) != typeid(fields::InvalidField)) throw;
   } catch (const std::runtime_error& fault) {
     // Not those of the standard library (std::range_error, a filesystem's) or of a package: they name no place.
     if (typeid(fault) != typeid(std::runtime_error) && typeid(fault) != typeid(sim::InputError)) throw;

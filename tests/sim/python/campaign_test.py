@@ -44,7 +44,7 @@ class Campaigns(unittest.TestCase):
     def test_bad_input_has_the_message_of_the_program(self):
         with self.assertRaisesRegex(hedgehop.InputError, "duraton"):
             hedgehop.batch(CITY, self.out, set={"duraton": 1})
-        with self.assertRaisesRegex(FileNotFoundError, "neither result.json"):
+        with self.assertRaisesRegex(FileNotFoundError, "no result.json, batch.csv or sweep.csv"):
             hedgehop.load(self.scratch.name)
 
     def test_a_table_keeps_texts_numbers_and_gaps(self):

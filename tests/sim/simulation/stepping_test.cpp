@@ -166,7 +166,8 @@ TEST(Stepping, SimulationsOnSeveralThreadsFlyAsAlone) {
 
 /// Many begin and end while others fly.
 TEST(Stepping, SimulationsBeginAndEndOnSeveralThreadsAtATime) {
-  const Scenario alley = load_scenario(config("garratt2009_city_0_light.yaml"), std::vector<std::string>{"duration=0.1"});
+  const Scenario alley =
+      load_scenario(config("garratt2009_city_0_light.yaml"), std::vector<std::string>{"duration=0.1"});
   const std::string alone = Simulation(alley).run().result.trajectory_hash;
   std::vector<int> equal(4, 0);
   std::vector<std::thread> threads;
