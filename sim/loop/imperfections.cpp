@@ -1,12 +1,12 @@
 #include "sim/loop/imperfections.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "sim/libm/random.h"
+#include "sim/loop/pixel_levels.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -16,12 +16,6 @@ constexpr double kWhite = 255.0;
 /// Uniform in [0, 1).
 double draw(uint64_t seed, int64_t frame, std::string_view what) {
   return unit_interval(stream_seed(stream_seed(seed, what) + static_cast<uint64_t>(frame), what));
-}
-
-/// Rounds twice on every processor; OpenCV's convertTo() rounds once on processors with FMA.
-void multiply_and_add(const cv::Mat& in, double factor, double term, cv::Mat& out) {
-  in.convertTo(out, CV_32F, factor);
-  cv::add(out, cv::Scalar::all(term), out);
 }
 
 }  // namespace
@@ -43,22 +37,16 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
   const bool uneven = config_.vignetting > 0.0 || config_.fixed_pattern > 0.0;
   if (image.depth() != CV_8U || (!noisy && !exposed && !uneven)) return;
 
-  image.convertTo(levels_, CV_32F);
-  if (uneven) cv::multiply(levels_, response(levels_), levels_);
-  if (config_.auto_exposure_s > 0.0) expose_automatically(levels_);
-  if (gain_ != 1.0) levels_ *= gain_;
+  const cv::Mat response = uneven ? response_for(image) : cv::Mat();
+  if (config_.auto_exposure_s > 0.0) expose_automatically(image, response);
+  std::optional<LevelNoise> noise;
   if (noisy) {
     // Photon counts have a Poisson distribution: the variance is the mean.
-    cv::min(levels_, kWhite, levels_);
-    const double per_level = config_.full_well > 0.0 ? kWhite / config_.full_well : 0.0;
-    multiply_and_add(levels_, per_level, config_.read_noise * config_.read_noise, sigma_);
-    cv::sqrt(sigma_, sigma_);
-    noise_.create(levels_.size(), levels_.type());
-    fill_normal(stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"), noise_);
-    cv::multiply(noise_, sigma_, noise_);
-    levels_ += noise_;
+    noise = {.seed = stream_seed(seed_ + static_cast<uint64_t>(frame), "noise"),
+             .variance_per_level = config_.full_well > 0.0 ? kWhite / config_.full_well : 0.0,
+             .read_variance = config_.read_noise * config_.read_noise};
   }
-  levels_.convertTo(image, CV_8U);
+  read_out(response, gain_, noise, image);
 }
 
 void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
@@ -79,9 +67,10 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
 }
 
 /// Returns the response of each pixel to light: the transmittance of the lens times the pixel's gain.
-const cv::Mat& Imperfections::response(const cv::Mat& levels) {
-  const cv::Size size = levels.size();
-  if (response_.size() == size && response_.type() == levels.type()) return response_;
+const cv::Mat& Imperfections::response_for(const cv::Mat& image) {
+  const cv::Size size = image.size();
+  const int type = CV_32FC(image.channels());
+  if (response_.size() == size && response_.type() == type) return response_;
   cv::Mat share(size, CV_32F);
   const double center_u = 0.5 * (size.width - 1), center_v = 0.5 * (size.height - 1);
   const double corner2 = std::max(1.0, center_u * center_u + center_v * center_v);
@@ -91,21 +80,25 @@ const cv::Mat& Imperfections::response(const cv::Mat& levels) {
       share.at<float>(v, u) = static_cast<float>(1.0 - config_.vignetting * (du * du + dv * dv) / corner2);
     }
   }
-  cv::merge(std::vector<cv::Mat>(static_cast<size_t>(levels.channels()), share), response_);
+  cv::merge(std::vector<cv::Mat>(static_cast<size_t>(image.channels()), share), response_);
   if (config_.fixed_pattern > 0.0) {
-    cv::Mat gain(size, levels.type());
+    cv::Mat gain(size, type);
     fill_normal(stream_seed(seed_, "fixed_pattern"), gain);
-    multiply_and_add(gain, config_.fixed_pattern, 1.0, gain);
+    // Two steps, because convertTo() with a term rounds once on processors with FMA.
+    gain.convertTo(gain, CV_32F, config_.fixed_pattern);
+    cv::add(gain, cv::Scalar::all(1.0), gain);
     cv::multiply(response_, gain, response_);
   }
   return response_;
 }
 
 /// Applies a first-order lag of the logarithm of the gain toward the gain for a mid-grey mean.
-void Imperfections::expose_automatically(const cv::Mat& levels) {
-  const cv::Scalar sums = cv::mean(levels);
+void Imperfections::expose_automatically(const cv::Mat& image, const cv::Mat& response) {
+  image.convertTo(levels_, CV_32F);
+  if (!response.empty()) cv::multiply(levels_, response, levels_);
+  const cv::Scalar sums = cv::mean(levels_);
   double mean = 0.0;
-  for (int channel = 0; channel < levels.channels(); ++channel) mean += sums[channel] / levels.channels();
+  for (int channel = 0; channel < image.channels(); ++channel) mean += sums[channel] / image.channels();
   constexpr double kMinMean = 1.0;  // level; a darker image does not increase the gain further
   const double target = 0.5 * kWhite / std::max(kMinMean, mean);
   gain_ *= std::pow(target / gain_, 1.0 - std::exp(-period_s_ / config_.auto_exposure_s));
@@ -114,45 +107,6 @@ void Imperfections::expose_automatically(const cv::Mat& levels) {
 void blank(cv::Mat& image) {
   const bool whole_numbers = image.depth() < CV_32F;
   image.setTo(whole_numbers ? cv::Scalar::all(0) : cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
-}
-
-namespace {
-
-constexpr int kBits = 16;
-constexpr uint32_t kSign = 1u << (kBits - 1);
-
-/// The bits of the positive half of the numbers, in increasing order.
-using Half = std::array<uint32_t, kSign>;
-
-Half positive_half() {
-  std::array<double, kSign> numbers{};
-  double squares = 0.0;
-  for (size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = normal_quantile(0.5 + (static_cast<double>(i) + 0.5) / (2.0 * kSign));
-    squares += numbers[i] * numbers[i];
-  }
-  const double scale = 1.0 / std::sqrt(squares / kSign);
-  Half half{};
-  for (size_t i = 0; i < half.size(); ++i) half[i] = std::bit_cast<uint32_t>(static_cast<float>(scale * numbers[i]));
-  return half;
-}
-
-}  // namespace
-
-void fill_normal(uint64_t seed, cv::Mat& image) {
-  static const Half half = positive_half();
-  const size_t count = static_cast<size_t>(image.cols) * static_cast<size_t>(image.channels());
-  uint64_t place = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    float* const numbers = image.ptr<float>(row);
-    for (size_t i = 0; i < count;) {
-      uint64_t bits = derived_seed(seed, place++);
-      for (const size_t end = std::min(i + 64 / kBits, count); i < end; ++i, bits >>= kBits) {
-        const uint32_t own = static_cast<uint32_t>(bits);
-        numbers[i] = std::bit_cast<float>(half[own & (kSign - 1)] | (own & kSign) << (32 - kBits));
-      }
-    }
-  }
 }
 
 }  // namespace hedgehop::sim

@@ -26,26 +26,19 @@ class Imperfections {
 
  private:
   void apply_to_depth(int64_t frame, cv::Mat& depth_m);
-  const cv::Mat& response(const cv::Mat& levels);
-  void expose_automatically(const cv::Mat& levels);
+  const cv::Mat& response_for(const cv::Mat& image);
+  void expose_automatically(const cv::Mat& image, const cv::Mat& response);
 
   ImperfectionsConfig config_;
   double period_s_;
   uint64_t seed_;
   double focal_px_;
   double gain_;
-  cv::Mat response_;                ///< CV_32F, as many channels as the image
-  cv::Mat levels_, noise_, sigma_;  ///< CV_32F
+  cv::Mat response_;        ///< CV_32F, as many channels as the image
+  cv::Mat levels_, noise_;  ///< CV_32F
 };
 
 /// Sets an image to the output of a dead sensor: 0 in 8 bits, NaN (unknown) in floats.
 void blank(cv::Mat& image);
-
-/// Fills an image with independent standard normal numbers; equal seeds give equal images. Each comes from 16 bits of
-/// SplitMix64's output at a place of its own: one of 65,536 equally likely numbers, the quantiles of the middles of as
-/// many equal shares [Wichura1988] p. 483, scaled to a variance of 1. All are within 4.4; the normal
-/// distribution has one in 90,000 beyond.
-/// @param image  CV_32F, of any size and number of channels.
-void fill_normal(uint64_t seed, cv::Mat& image);
 
 }  // namespace hedgehop::sim

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <variant>
+
+#include "sim/loop/pixel_levels.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -34,29 +35,31 @@ void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, 
         static_cast<int>(std::clamp(config_.shutter_s * image_speed_pxps / kMomentSpacingPx, 0.0, max_moments - 1.0)) +
         1;
   }
-  const int strips = config_.readout_s > 0.0 ? std::min(config_.readout_strips, rows) : 1;
+  if (config_.readout_s <= 0.0) return expose_strip(body, 0.0, moments, {0, rows}, draw, out);
+  const int strips = std::min(config_.readout_strips, rows);
   for (int i = 0; i < strips; ++i) {
     const cv::Range strip(i * rows / strips, (i + 1) * rows / strips);
     const double middle = strips > 1 ? 0.5 * (strip.start + strip.end - 1) / (rows - 1) : 1.0;  // 0 top row, 1 last
-    expose_strip(body, -config_.readout_s * (1.0 - middle), moments, strip, draw);
+    expose_strip(body, -config_.readout_s * (1.0 - middle), moments, strip, draw, strip_);
     out.create(rows, strip_.cols, strip_.type());
     strip_.copyTo(out.rowRange(strip));
   }
 }
 
 void Shutter::expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows,
-                           const DrawRows& draw) {
+                           const DrawRows& draw, cv::Mat& out) {
   for (int k = 0; k < moments; ++k) {
     const double dt_s = end_s - config_.shutter_s * (k + 0.5) / moments;
-    draw(body.X_WB_after(dt_s), dt_s, rows, k == 0 ? strip_ : moment_);
+    draw(body.X_WB_after(dt_s), dt_s, rows, out);
     if (moments == 1) return;
     if (k == 0) {
-      strip_.convertTo(sum_, CV_32F);
+      out.convertTo(sums_, CV_16U);
+    } else if (k < moments - 1) {
+      add_levels(out, sums_);
     } else {
-      cv::accumulate(moment_, sum_);
+      mean_levels(sums_, out, moments, out);
     }
   }
-  sum_.convertTo(strip_, CV_8U, 1.0 / moments);
 }
 
 vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range& rows) {

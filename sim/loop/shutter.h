@@ -37,10 +37,11 @@ class Shutter {
   void expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out);
 
  private:
-  void expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows, const DrawRows& draw);
+  void expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows, const DrawRows& draw,
+                    cv::Mat& out);
 
   ImperfectionsConfig config_;
-  cv::Mat strip_, moment_, sum_;
+  cv::Mat strip_, sums_;
 };
 
 /// Returns the camera that shows some rows of another camera's image.

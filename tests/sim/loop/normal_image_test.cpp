@@ -1,10 +1,10 @@
-#include "sim/loop/imperfections.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "sim/loop/pixel_levels.h"
 
 namespace hedgehop::sim {
 namespace {
