@@ -255,7 +255,7 @@ BatchOrders reread_batch(const fs::path& batch_json) {
   const std::vector<std::string> no_overrides;
   Gatherer gatherer(no_seeds, no_overrides);
   try {
-    const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
+    const nlohmann::ordered_json batch = read_batch_json(batch_json);
     gatherer.recall(batch_json, batch.value("conduct", nlohmann::ordered_json::object()));
     for (const auto& flight : batch.at("flights")) {
       gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
@@ -263,10 +263,6 @@ BatchOrders reread_batch(const fs::path& batch_json) {
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
   }
   return gatherer.take();
 }

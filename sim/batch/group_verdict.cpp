@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sim/config/whole_file.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/order_statistics.h"
 #include "sim/libm/random.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 Count earlier_count(const std::string& batch_json, const std::string& group) {
   try {
-    const auto batch = nlohmann::ordered_json::parse(read_file_whole(batch_json));
+    const nlohmann::ordered_json batch = read_batch_json(batch_json);
     Count count;
     for (const auto& flight : batch.at("flights")) {
       if (flight.at("group") != group || flight.at("status") == "missing" || flight.at("passed").is_null()) continue;
@@ -25,8 +25,6 @@ Count earlier_count(const std::string& batch_json, const std::string& group) {
     return count;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: no record of a batch: {}", batch_json, error.what()));
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
   }
 }
 

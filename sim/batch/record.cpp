@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
+#include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 
@@ -24,6 +26,25 @@ std::vector<std::string> run_arguments(const Order& order) {
     arguments.push_back(text);
   }
   return arguments;
+}
+
+nlohmann::ordered_json read_batch_json(const std::filesystem::path& file) {
+  try {
+    nlohmann::ordered_json batch = nlohmann::ordered_json::parse(read_file_whole(file));
+    for (const auto& group : batch.at("groups")) {
+      if (!group.contains("least_clearance_m")) continue;
+      throw InputError(
+          fmt::format("{}: key 'groups.least_clearance_m' of an earlier version is now 'min_clearance_m'; fly again",
+                      file.string()));
+    }
+    return batch;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no record of a batch: {}", file.string(), error.what()));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
 }
 
 std::string rerun_command(const Order& order) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,6 +38,10 @@ std::string rerun_command(const Order& order);
 
 /// Returns a word, quoted for a POSIX shell if necessary.
 std::string shell_quoted(const std::string& word);
+
+/// Parses the batch.json of an earlier batch. Throws InputError if the file cannot be read, is not JSON, or has a key
+/// of an earlier version.
+nlohmann::ordered_json read_batch_json(const std::filesystem::path& file);
 
 /// The end of an order.
 struct FlightRecord {

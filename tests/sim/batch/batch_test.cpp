@@ -81,6 +81,16 @@ TEST(Batch, FailedOnlyFliesFailedFlightsAndKeepsTheOthers) {
   EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n2\n");
 }
 
+TEST(Batch, RecordWithAFormerKeyIsRefusedWithItsNewName) {
+  const CampaignFolder folder;
+  folder.write("batch.json", R"({"groups": [{"group": "tiny", "least_clearance_m": 1.0}], "flights": []})");
+  for (const char* command : {"batch --failed-only --out .", "batch tiny.yaml --no-worse-than batch.json --out out"}) {
+    const CommandEnd end = folder.hedgehop(command);
+    EXPECT_EQ(end.status, 2) << command;
+    EXPECT_THAT(end.err, HasSubstr("'groups.least_clearance_m' of an earlier version is now 'min_clearance_m'"));
+  }
+}
+
 TEST(Batch, FlightWithoutChecksDoesNotPass) {
   const CampaignFolder folder;
   std::string scenario = folder.read("tiny.yaml");
