@@ -90,7 +90,6 @@ function(hedgehop_test name)
     set(arg_LABEL unit)
   endif()
   add_executable(${name} ${arg_SRCS})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # small test helpers share names
   hedgehop_use_precompiled(${name} hedgehop_test_headers)
   target_compile_options(${name} PRIVATE ${HEDGEHOP_COLD_OPTIONS})
   target_compile_definitions(${name} PRIVATE HEDGEHOP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -33,5 +33,4 @@ if(HEDGEHOP_TESTS)
   hedgehop_precompile(hedgehop_test_headers ${precompiled} <gmock/gmock.h> <gtest/gtest.h>)
   target_link_libraries(hedgehop_test_headers PRIVATE GTest::gmock GTest::gtest)
   target_compile_options(hedgehop_test_headers PRIVATE ${HEDGEHOP_COLD_OPTIONS})
-  set_target_properties(hedgehop_test_headers PROPERTIES UNITY_BUILD OFF)  # same as the tests
 endif()

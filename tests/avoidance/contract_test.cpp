@@ -14,7 +14,7 @@
 namespace hedgehop::avoidance {
 namespace {
 
-constexpr int kSizePx = 160;
+constexpr int kContractImagePx = 160;
 
 struct Row {
   std::string name;
@@ -41,7 +41,8 @@ std::vector<Row> default_rows(std::index_sequence<Index...>) {
 policy::OnnxPolicyConfig small_policy() {
   static const sim::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "small.onnx";
-  onnx_file::write_linear_policy(file, kSizePx, kSizePx, std::vector<float>(44, 0.01f), {0.5f, 0.1f, -0.1f, 0.2f});
+  onnx_file::write_linear_policy(file, kContractImagePx, kContractImagePx, std::vector<float>(44, 0.01f),
+                                 {0.5f, 0.1f, -0.1f, 0.2f});
   return {.file = file, .images = {{.camera = "front"}}};
 }
 
@@ -98,9 +99,9 @@ class Contract : public testing::TestWithParam<Row> {
 
   // A flight past two walls; drawn once, because drawing takes most of the time of a test.
   static const std::vector<contract::Step>& flight() {
-    static const std::vector<contract::Step> all_round = make_flight(four_cameras(kSizePx, 25.0));
-    static const std::vector<contract::Step> ahead = make_flight(stereo_pair(kSizePx, 25.0));
-    static const std::vector<contract::Step> below = make_flight(fisheye_below(2 * kSizePx, 25.0));
+    static const std::vector<contract::Step> all_round = make_flight(four_cameras(kContractImagePx, 25.0));
+    static const std::vector<contract::Step> ahead = make_flight(stereo_pair(kContractImagePx, 25.0));
+    static const std::vector<contract::Step> below = make_flight(fisheye_below(2 * kContractImagePx, 25.0));
     if (GetParam().fisheye) return below;
     return GetParam().stereo ? ahead : all_round;
   }
@@ -119,8 +120,9 @@ class Contract : public testing::TestWithParam<Row> {
   }
   static avoidance::Setup setup() {
     constexpr double kSpeedLimitMps = 10.0;
-    if (GetParam().fisheye) return fisheye_below(2 * kSizePx, 25.0, kSpeedLimitMps);
-    return GetParam().stereo ? stereo_pair(kSizePx, 25.0, kSpeedLimitMps) : four_cameras(kSizePx, 25.0, kSpeedLimitMps);
+    if (GetParam().fisheye) return fisheye_below(2 * kContractImagePx, 25.0, kSpeedLimitMps);
+    return GetParam().stereo ? stereo_pair(kContractImagePx, 25.0, kSpeedLimitMps)
+                             : four_cameras(kContractImagePx, 25.0, kSpeedLimitMps);
   }
   static contract::Subject subject() {
     return {.make = [config = GetParam().config] { return make_module(config); },

@@ -124,7 +124,7 @@ TEST(StoppingDistance, EqualsThePathOfAPointThatReverses) {
   }
 }
 
-constexpr int kSizePx = 200;
+constexpr int kRangedImagePx = 200;
 constexpr double kImageS = 0.04;
 constexpr double kNorthM = 4.0, kEastM = 2.5, kSouthM = 5.0, kWestM = 3.0;  // of the walls from the origin
 
@@ -135,7 +135,7 @@ TEST(FitWalls, MeasuresARoomFromTwoImagesOfFourCameras) {
   const vision::WaveTexture texture(7, 0.05, 0.8, 24);
   for (const Eigen::Vector2d& v_mps :
        {Eigen::Vector2d(0.9, 0.9), Eigen::Vector2d(-0.4, 1.2), Eigen::Vector2d(0.0, 1.4)}) {
-    const auto setup = four_cameras(kSizePx, 1.0 / kImageS);
+    const auto setup = four_cameras(kRangedImagePx, 1.0 / kImageS);
     CameraFlow::Options options;
     options.flow = {.rows = 1, .cols = 8, .patch_px = 32, .margin_px = 14, .levels = 2};
     options.derotate = true;

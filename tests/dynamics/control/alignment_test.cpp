@@ -12,7 +12,7 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kAlignmentDeg = std::numbers::pi / 180.0;
 
 /// Returns the small rotation about B's axes from the estimate to the truth, rad.
 Eigen::Vector3d rotation_between(const Eigen::Quaterniond& q_est, const Eigen::Quaterniond& q_true) {
@@ -61,7 +61,7 @@ TEST(GroundAlignment, ErrorsAreThoseOfTheJointCovariance) {
   sensors::ImuConfig imu_config;  // smaller biases than usual: products of tilts stay below the heading noise
   imu_config.accelerometer_offset_mps2 = 0.05;
   imu_config.accelerometer_bias_walk = 0.002;
-  imu_config.misalignment_rad = 0.01 * kDeg;
+  imu_config.misalignment_rad = 0.01 * kAlignmentDeg;
   const sensors::MagnetometerConfig magnetometer_config;
   constexpr int kFlights = 400, kImuReadings = 3000, kHeadings = 1500;
   constexpr double kDt = 0.002, kHeadingRad = -2.0;

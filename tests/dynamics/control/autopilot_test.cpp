@@ -16,7 +16,7 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kAutopilotDeg = std::numbers::pi / 180.0;
 Loop perfect() {
   Loop loop;
   loop.perfect = true;
@@ -33,14 +33,14 @@ TEST(Autopilot, FollowsVelocityStepsInAllDirections) {
   for (const double size : {0.5, 1.0, 2.0}) {
     for (int direction = 0; direction < 8; ++direction) {
       const double angle = direction * std::numbers::pi / 4.0;
-      SCOPED_TRACE(testing::Message() << size << " m/s towards " << angle / kDeg << " deg");
+      SCOPED_TRACE(testing::Message() << size << " m/s towards " << angle / kAutopilotDeg << " deg");
       const StepResponse r = step_response(perfect(), size * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
       expect_crisp(r);
       EXPECT_LT(r.overshoot, 0.08);
       EXPECT_LT(r.across_mps, 0.05 * size);
       EXPECT_LT(r.altitude_m, 0.05 * size);
-      EXPECT_LT(r.heading_rad, 1.5 * kDeg);
-      EXPECT_LT(r.tilt_rad, 14.0 * kDeg);  // 2 m/s2 are 11.5 deg
+      EXPECT_LT(r.heading_rad, 1.5 * kAutopilotDeg);
+      EXPECT_LT(r.tilt_rad, 14.0 * kAutopilotDeg);  // 2 m/s2 are 11.5 deg
     }
   }
 }
@@ -49,7 +49,7 @@ TEST(Autopilot, ResponseIsIndependentOfHeading) {
   for (const double heading_deg : {22.5, 135.0, -170.0}) {
     SCOPED_TRACE(heading_deg);
     Loop loop = perfect();
-    loop.heading_rad = heading_deg * kDeg;
+    loop.heading_rad = heading_deg * kAutopilotDeg;
     const StepResponse r = step_response(loop, {1.0, 0.0});
     expect_crisp(r);
     EXPECT_LT(r.across_mps, 0.05);
@@ -116,7 +116,7 @@ TEST(Autopilot, DesignsItselfForOtherHelicopters) {
 TEST(Autopilot, KeepsClimbAndYawRateLimits) {
   const AutopilotConfig limits;
   const std::vector<Sample> flight = fly(perfect(), 14.0, [](double t_s) {
-    return VelocitySetpoint{{0.0, 0.0}, t_s < 1.0 ? 10.0 : 14.0, t_s < 1.0 ? 0.0 : 170.0 * kDeg};
+    return VelocitySetpoint{{0.0, 0.0}, t_s < 1.0 ? 10.0 : 14.0, t_s < 1.0 ? 0.0 : 170.0 * kAutopilotDeg};
   });
   double highest = 0.0;
   for (const Sample& s : flight) {
@@ -127,7 +127,7 @@ TEST(Autopilot, KeepsClimbAndYawRateLimits) {
   }
   EXPECT_LT(highest, 14.1);
   EXPECT_NEAR(flight.back().body.p_WB.z(), -14.0, 0.05);
-  EXPECT_NEAR(flight.back().rpy()[2], 170.0 * kDeg, 1.0 * kDeg);
+  EXPECT_NEAR(flight.back().rpy()[2], 170.0 * kAutopilotDeg, 1.0 * kAutopilotDeg);
 }
 
 TEST(Autopilot, ClampsSpeedSetpoints) {
@@ -140,11 +140,11 @@ TEST(Autopilot, ClampsSpeedSetpoints) {
 
 TEST(Autopilot, HoldsAttitudeAndHeight) {
   const std::vector<Sample> flight = fly(perfect(), 4.0, [](double) {
-    return AttitudeSetpoint{5.0 * kDeg, -3.0 * kDeg, 0.0, 10.0};
+    return AttitudeSetpoint{5.0 * kAutopilotDeg, -3.0 * kAutopilotDeg, 0.0, 10.0};
   });
   const HoverModel hover = make_hover_model(helicopter::HelicopterConfig());
-  EXPECT_NEAR(flight.back().rpy()[0] - hover.roll_rad, 5.0 * kDeg, 1.0 * kDeg);
-  EXPECT_NEAR(flight.back().rpy()[1] - hover.pitch_rad, -3.0 * kDeg, 1.0 * kDeg);
+  EXPECT_NEAR(flight.back().rpy()[0] - hover.roll_rad, 5.0 * kAutopilotDeg, 1.0 * kAutopilotDeg);
+  EXPECT_NEAR(flight.back().rpy()[1] - hover.pitch_rad, -3.0 * kAutopilotDeg, 1.0 * kAutopilotDeg);
   EXPECT_NEAR(flight.back().body.p_WB.z(), -10.0, 0.2);
 }
 
@@ -191,7 +191,7 @@ TEST(Autopilot, IntegralsDoNotWindUpAtLimits) {
   // For three seconds, a gust accelerates the aircraft more than the tilt limit can counteract. After it, only the
   // velocity error may remain.
   Loop loop = perfect();
-  loop.avionics.autopilot.tilt_limit_rad = 6.0 * kDeg;
+  loop.avionics.autopilot.tilt_limit_rad = 6.0 * kAutopilotDeg;
   loop.wind_W = [](double t_s) { return Eigen::Vector3d(t_s > 2.0 && t_s < 5.0 ? -14.0 : 0.0, 0.0, 0.0); };
   const std::vector<Sample> flight = fly(loop, 14.0, [](double) { return VelocitySetpoint{{0.0, 0.0}, 10.0, 0.0}; });
   double blown = 0.0, back = 0.0, late = 0.0;

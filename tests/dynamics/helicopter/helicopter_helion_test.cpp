@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-Trim trimmed(double north_mps) {
+Trim helion_trim(double north_mps) {
   const std::optional<Trim> found = trim(make_helion(), {north_mps, 0.0, 0.0});
   EXPECT_TRUE(found) << north_mps;
   return found.value_or(Trim{});
@@ -22,7 +22,7 @@ Trim trimmed(double north_mps) {
 
 // Check HT1.
 TEST(Helion, HT1_HoverMatchesPublishedValues) {
-  const Trim t = trimmed(0.0);
+  const Trim t = helion_trim(0.0);
   constexpr double kPrinted = 0.03;  // of the trim in [HeLionCode]
   expect_recorded_relative("phi, rad", t.roll_rad, 0.0389, kPrinted);
   expect_recorded_relative("theta, rad", t.pitch_rad, 0.000887, kPrinted);
@@ -31,7 +31,7 @@ TEST(Helion, HT1_HoverMatchesPublishedValues) {
 }
 
 TEST(Helion, HT1_HoverTrimInFull) {
-  const Trim t = trimmed(0.0);
+  const Trim t = helion_trim(0.0);
   constexpr double kDerived = 0.002;
   expect_recorded_relative("phi, rad", t.roll_rad, 0.038943, kDerived);
   expect_recorded_relative("theta, rad", t.pitch_rad, 0.000887, kDerived);
@@ -59,7 +59,7 @@ TEST(Helion, HT2_LevelFlight) {
        {Row{-4.0, 5.476, 7.179, 2.049, 0.695, 4.130, 772.1}, Row{6.0, 5.080, 6.279, 1.913, -1.406, 3.413, 721.5},
         Row{14.0, 5.065, 6.052, 2.338, -7.405, 1.663, 888.2}}) {
     const std::string at = std::to_string(static_cast<int>(row.north_mps)) + " m/s: ";
-    const Trim t = trimmed(row.north_mps);
+    const Trim t = helion_trim(row.north_mps);
     expect_angle(t.blades.collective_rad, row.collective_deg, at + "theta_c, deg");
     expect_angle(t.blades.tail_rad, row.tail_deg, at + "theta_t, deg");
     expect_angle(t.roll_rad, row.roll_deg, at + "phi, deg");
@@ -71,10 +71,10 @@ TEST(Helion, HT2_LevelFlight) {
 
 // Check HT4.
 TEST(Helion, HT4_HoversRightSideDownAndPitchesDownWithSpeed) {
-  expect_recorded("phi in hover, deg", trimmed(0.0).roll_rad / kDeg, 2.23, 0.02);
+  expect_recorded("phi in hover, deg", helion_trim(0.0).roll_rad / kDeg, 2.23, 0.02);
   double pitch = 1e9, inflow = 1e9;
   for (double V = 0.0; V <= 14.0; V += 1.0) {
-    const Trim t = trimmed(V);
+    const Trim t = helion_trim(V);
     EXPECT_LT(t.pitch_rad, pitch) << V;
     EXPECT_LT(t.loads.main_rotor.inflow.induced_mps, inflow) << V;
     pitch = t.pitch_rad;
@@ -99,7 +99,7 @@ void expect_mode(const Eigen::MatrixXd& A, std::complex<double> expected) {
 // Check LM2.
 TEST(Helion, LM2_ModesOfTheHover) {
   using L = LinearModel;
-  const LinearModel m = linearize(make_helion(), trimmed(0.0));
+  const LinearModel m = linearize(make_helion(), helion_trim(0.0));
   expect_recorded_relative("L_b, 1/s2", m.A(L::kP, L::kDiscRight), 583.51, 0.01);
   expect_recorded_relative("M_a, 1/s2", m.A(L::kQ, L::kDiscBack), 267.01, 0.01);
   const Eigen::MatrixXd A = m.A.topLeftCorner<L::kBarBack, L::kBarBack>();
@@ -141,7 +141,7 @@ TEST(Helion, LM2_StabilizerBarSlowsTheRollMode) {
 TEST(Helion, LM6_RollRatePerStickAndHeaveAreInThePublishedBands) {
   using L = LinearModel;
   const HelionModel model = make_helion();
-  const LinearModel m = linearize(model, trimmed(0.0));
+  const LinearModel m = linearize(model, helion_trim(0.0));
   // Steady roll rate and disc under a constant stick.
   Eigen::Matrix2d A;
   A << m.A(L::kP, L::kP), m.A(L::kP, L::kDiscRight), m.A(L::kDiscRight, L::kP), m.A(L::kDiscRight, L::kDiscRight);

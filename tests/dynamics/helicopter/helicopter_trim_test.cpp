@@ -12,7 +12,7 @@
 namespace hedgehop::dynamics::helicopter {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kTrimDeg = std::numbers::pi / 180.0;
 constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
 const HelicopterModel& xcell() {
@@ -34,7 +34,7 @@ struct Row {
 
 void expect_angle(double value_rad, double expected_deg, const char* what) {
   if (std::isnan(expected_deg)) return;
-  expect_recorded(std::string(what) + ", deg", value_rad / kDeg, expected_deg,
+  expect_recorded(std::string(what) + ", deg", value_rad / kTrimDeg, expected_deg,
                   std::max(0.02, 0.005 * std::abs(expected_deg)));
 }
 void expect_half_percent(double value, double expected, const char* what) {
@@ -114,7 +114,7 @@ TEST(HelicopterTrim, HT4_InflowAndPitchFallWithSpeed) {
 
 TEST(HelicopterTrim, HT4_PitchIsOddInSpeed) {
   for (double V = 0.5; V <= 6.0; V += 0.5) {
-    EXPECT_NEAR(trimmed({V, 0, 0}).pitch_rad, -trimmed({-V, 0, 0}).pitch_rad, 0.1 * kDeg) << V;
+    EXPECT_NEAR(trimmed({V, 0, 0}).pitch_rad, -trimmed({-V, 0, 0}).pitch_rad, 0.1 * kTrimDeg) << V;
   }
 }
 
@@ -126,12 +126,12 @@ TEST(HelicopterTrim, HT4_TailCollectiveFallsThenRises) {
 }
 
 TEST(HelicopterTrim, HT4_ClockwiseRotorHoversRightSideDown) {
-  expect_recorded("phi in hover, deg", trimmed({0, 0, 0}).roll_rad / kDeg, 4.49, 0.02);
+  expect_recorded("phi in hover, deg", trimmed({0, 0, 0}).roll_rad / kTrimDeg, 4.49, 0.02);
   HelicopterConfig mirrored;
   mirrored.main_rotor.turns = MainRotorConfig::Turns::counter_clockwise;
   const std::optional<Trim> left = trim(make_model(mirrored), Eigen::Vector3d::Zero());
   ASSERT_TRUE(left);
-  EXPECT_NEAR(left->roll_rad / kDeg, -4.49, 0.02);
+  EXPECT_NEAR(left->roll_rad / kTrimDeg, -4.49, 0.02);
 }
 
 TEST(HelicopterTrim, HT4_HeadwindHelpsTheHover) {

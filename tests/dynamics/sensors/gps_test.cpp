@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-GpsConfig exact() {
+GpsConfig exact_gps() {
   GpsConfig c;
   c.wander_horizontal_m = c.wander_vertical_m = c.noise_m = c.velocity_noise_mps = 0.0;
   return c;
@@ -24,7 +24,7 @@ GpsConfig exact() {
 // Check AS6.
 TEST(Gps, AS6_FixesAreDelayedByTheLatency) {
   constexpr double kDt = 0.002, kSpeed = 5.0;
-  Gps gps(exact(), kDt, 1);
+  Gps gps(exact_gps(), kDt, 1);
   EXPECT_EQ(gps.period(), 100);
   int fixes = 0;
   for (int64_t tick = 0; tick < 1000; ++tick) {
@@ -76,7 +76,7 @@ TEST(Gps, HasNoFixWithoutReception) {
 }
 
 TEST(Gps, DropsTheConfiguredShareOfFixes) {
-  GpsConfig c = exact();
+  GpsConfig c = exact_gps();
   c.latency_s = 0.0;
   c.dropout = 0.3;
   Gps gps(c, 0.2, 1);

@@ -17,7 +17,7 @@ using testing::ThrowsMessage;
 constexpr double kDt = 0.002;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-RangerConfig exact() {
+RangerConfig exact_ranger() {
   RangerConfig c;
   c.noise_m = c.noise_per_range = c.dropout = 0.0;
   return c;
@@ -46,7 +46,7 @@ TEST(Ranger, NoiseGrowsWithTheRange) {
 }
 
 TEST(Ranger, OffsetIsConstantDuringAFlight) {
-  RangerConfig c = exact();
+  RangerConfig c = exact_ranger();
   c.offset_m = 0.05;
   constexpr int kFlights = 3000;
   double offsets2 = 0.0;
@@ -82,7 +82,7 @@ TEST(Ranger, DropoutsDoNotChangeOtherReadings) {
 TEST(Ranger, AS6_ReadingsOfAnApproachingWallAreDelayedByTheLatency) {
   constexpr double kSpeed = 4.0;
   for (const int64_t latency : {0, 3, 10, 25, 50}) {
-    RangerConfig c = exact();
+    RangerConfig c = exact_ranger();
     c.latency_s = kDt * static_cast<double>(latency);
     Ranger ranger("r", c, kDt, 1);
     int looks = 0;
@@ -108,8 +108,8 @@ TEST(Ranger, HasNoReadingOutOfRangeOrIfDisabled) {
     Ranger ranger("r", c, kDt, 1);
     return read(ranger, distance_m).has_value();
   };
-  const RangerConfig on = exact();
-  RangerConfig off = exact();
+  const RangerConfig on = exact_ranger();
+  RangerConfig off = exact_ranger();
   off.enabled = false;
   EXPECT_FALSE(reads(on, 0.01));
   EXPECT_TRUE(reads(on, 0.03));

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-RoomConfig small_images() {
+RoomConfig room_with_small_images() {
   RoomConfig config;
   config.texture_size_px = 64;
   return config;
@@ -28,7 +28,7 @@ bool inside_a_solid(const Scene& scene, const Eigen::Vector3d& p_W) {
 }
 
 TEST(Room, FreeSpaceIsEightBySixteenMetersAndClosed) {
-  const Scene room = make_room(small_images(), 1);
+  const Scene room = make_room(room_with_small_images(), 1);
   EXPECT_EQ(room.bounds_NE_m.sizes(), Eigen::Vector2d(16.0, 8.0));
   EXPECT_TRUE(room.has_ground);
   std::mt19937_64 random(5);
@@ -49,7 +49,7 @@ TEST(Room, FreeSpaceIsEightBySixteenMetersAndClosed) {
 }
 
 TEST(Room, WithoutCeilingOnlyWallsRemain) {
-  RoomConfig config = small_images();
+  RoomConfig config = room_with_small_images();
   config.ceiling = false;
   const Scene room = make_room(config, 1);
   EXPECT_EQ(room.solids.size(), 4u);
@@ -58,7 +58,7 @@ TEST(Room, WithoutCeilingOnlyWallsRemain) {
 
 TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    RoomConfig config = small_images();
+    RoomConfig config = room_with_small_images();
     config.furniture = 4;
     const Scene room = make_room(config, seed);
     ASSERT_EQ(room.solids.size(), 9u);
@@ -85,7 +85,7 @@ TEST(Room, FurnitureKeepsItsGapsAndTheClearings) {
 }
 
 TEST(Room, DependsOnTheSeedOnly) {
-  RoomConfig config = small_images();
+  RoomConfig config = room_with_small_images();
   config.furniture = 3;
   EXPECT_TRUE(identical(make_scene(config, 4), make_scene(config, 4)));
   EXPECT_FALSE(identical(make_scene(config, 4), make_scene(config, 5)));
@@ -93,18 +93,18 @@ TEST(Room, DependsOnTheSeedOnly) {
 
 TEST(Room, RejectsInvalidConfigs) {
   const auto refused = [](auto change) {
-    RoomConfig config = small_images();
+    RoomConfig config = room_with_small_images();
     change(config);
     return [config] { make_room(config, 1); };
   };
-  using E = std::invalid_argument;
-  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }), ThrowsMessage<E>(HasSubstr("length: must be >= 1 m, got 0")));
+  EXPECT_THAT(refused([](auto& c) { c.length_m = 0.0; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("length: must be >= 1 m, got 0")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = -1; }),
-              ThrowsMessage<E>(HasSubstr("furniture: must be >= 0, got -1")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("furniture: must be >= 0, got -1")));
   EXPECT_THAT(refused([](auto& c) { c.furniture = 200; }),
-              ThrowsMessage<E>(HasSubstr("furniture: 200; valid: at most ")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("furniture: 200; valid: at most ")));
   EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 8; }),
-              ThrowsMessage<E>(HasSubstr("texture_size: must be >= 64 px, got 8")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("texture_size: must be >= 64 px, got 8")));
 }
 
 }  // namespace

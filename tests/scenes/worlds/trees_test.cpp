@@ -17,7 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using E = std::invalid_argument;
 
 constexpr int64_t kSmallPx = 64;
 
@@ -138,8 +137,10 @@ TEST(Forest, FarDetailOmitsOnlyTrunks) {
 
 TEST(Forest, RejectsMoreTreesThanFit) {
   const ForestConfig config{.trees = 30, .keep_clear = {{0.0, 0.0, 14.0}}, .texture_size_px = kSmallPx};
-  EXPECT_THAT([&] { make_forest(config, 1); }, ThrowsMessage<E>(HasSubstr("trees: 30; valid: at most ")));
-  EXPECT_THAT([] { make_forest({.clear_height_m = 9.0}, 1); }, ThrowsMessage<E>(HasSubstr("clear_height: 9")));
+  EXPECT_THAT([&] { make_forest(config, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("trees: 30; valid: at most ")));
+  EXPECT_THAT([] { make_forest({.clear_height_m = 9.0}, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("clear_height: 9")));
 }
 
 }  // namespace

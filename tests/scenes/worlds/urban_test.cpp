@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-UrbanConfig small_images() {
+UrbanConfig city_with_small_images() {
   UrbanConfig config;
   config.texture_size_px = 64;
   return config;
@@ -36,12 +36,12 @@ double distance_to_plan(const Eigen::AlignedBox3d& box, double north, double eas
 }
 
 TEST(Urban, SameSeedGivesTheSameSceneBitForBit) {
-  const SceneConfig config = small_images();
+  const SceneConfig config = city_with_small_images();
   EXPECT_TRUE(identical(make_scene(config, 7), make_scene(config, 7)));
 }
 
 TEST(Urban, AnotherSeedGivesAnotherCityAndOtherTextures) {
-  const Scene a = make_scene(small_images(), 7), b = make_scene(small_images(), 8);
+  const Scene a = make_scene(city_with_small_images(), 7), b = make_scene(city_with_small_images(), 8);
   EXPECT_FALSE(identical(a, b));
   EXPECT_GT(cv::norm(a.textures.back(), b.textures.back(), cv::NORM_L1), 0.0);
   EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
@@ -159,21 +159,28 @@ TEST(Urban, TenThousandBuildingsAreAsDenseAsAHundred) {
 
 TEST(Urban, RejectsInvalidConfigs) {
   const auto refused = [](auto change) {
-    UrbanConfig config = small_images();
+    UrbanConfig config = city_with_small_images();
     change(config);
     return [config] { make_urban(config, 1); };
   };
-  using E = std::invalid_argument;
-  EXPECT_THAT(refused([](auto& c) { c.pitch_m = 9.0; }), ThrowsMessage<E>(HasSubstr("pitch: 9; valid: ")));
-  EXPECT_THAT(refused([](auto& c) { c.extent_m = 20.0; }), ThrowsMessage<E>(HasSubstr("extent: 20")));
-  EXPECT_THAT(refused([](auto& c) { c.extent_m = std::nan(""); }), ThrowsMessage<E>(HasSubstr("extent")));
-  EXPECT_THAT(refused([](auto& c) { c.max_height_m = 10.0; }), ThrowsMessage<E>(HasSubstr("max_height: 10")));
-  EXPECT_THAT(refused([](auto& c) { c.min_footprint = 0.0; }), ThrowsMessage<E>(HasSubstr("min_footprint")));
-  EXPECT_THAT(refused([](auto& c) { c.max_footprint = 0.5; }), ThrowsMessage<E>(HasSubstr("footprint")));
-  EXPECT_THAT(refused([](auto& c) { c.jitter = 1.5; }), ThrowsMessage<E>(HasSubstr("jitter: must be <= 1, got 1.5")));
+  EXPECT_THAT(refused([](auto& c) { c.pitch_m = 9.0; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("pitch: 9; valid: ")));
+  EXPECT_THAT(refused([](auto& c) { c.extent_m = 20.0; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("extent: 20")));
+  EXPECT_THAT(refused([](auto& c) { c.extent_m = std::nan(""); }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("extent")));
+  EXPECT_THAT(refused([](auto& c) { c.max_height_m = 10.0; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("max_height: 10")));
+  EXPECT_THAT(refused([](auto& c) { c.min_footprint = 0.0; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("min_footprint")));
+  EXPECT_THAT(refused([](auto& c) { c.max_footprint = 0.5; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("footprint")));
+  EXPECT_THAT(refused([](auto& c) { c.jitter = 1.5; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("jitter: must be <= 1, got 1.5")));
   EXPECT_THAT(refused([](auto& c) { c.keep_clear[0].radius_m = -1.0; }),
-              ThrowsMessage<E>(HasSubstr("radius: must be >= 0 m, got -1")));
-  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 500; }), ThrowsMessage<E>(HasSubstr("texture_size: 500")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("radius: must be >= 0 m, got -1")));
+  EXPECT_THAT(refused([](auto& c) { c.texture_size_px = 500; }),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("texture_size: 500")));
 }
 
 }  // namespace

@@ -17,9 +17,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using E = std::invalid_argument;
 
-constexpr int64_t kSmallPx = 64;
+constexpr int64_t kVariedTexturePx = 64;
 constexpr uint64_t kSeeds = 300;
 constexpr double kRounding = 1e-9;
 
@@ -104,7 +103,7 @@ TEST(VariedSkyline, DoesNotChangeTheCube) {
 
 // A corridor with all features.
 CorridorConfig rich_corridor() {
-  CorridorConfig corridor{.vary = 0.3, .texture_size_px = kSmallPx};
+  CorridorConfig corridor{.vary = 0.3, .texture_size_px = kVariedTexturePx};
   corridor.sections = {{.length_m = 8.0},
                        {.length_m = 6.0, .bend_rad = 30.0 * kDeg, .doorway_m = 1.1},
                        {.length_m = 4.0, .bend_rad = -20.0 * kDeg, .width_m = 1.75},
@@ -186,19 +185,22 @@ TEST(VariedCorridor, RejectsConfigsThatASeedCouldMakeInvalid) {
     return [config] { plan_corridor(config, 1); };
   };
   EXPECT_NO_THROW(make({.doorway_m = 2.2}, 0.0)());
-  EXPECT_THAT(make({.doorway_m = 2.2}, 0.2), ThrowsMessage<E>(HasSubstr("sections.doorway: 2.2")));
-  EXPECT_THAT(make({.doorway_m = 0.35}, 0.2), ThrowsMessage<E>(HasSubstr("sections.doorway: 0.35")));
-  EXPECT_THAT(make({.obstacle_m = -2.2}, 0.2), ThrowsMessage<E>(HasSubstr("sections.obstacle: -2.2")));
-  EXPECT_THAT(make({.width_m = 0.7}, 0.2), ThrowsMessage<E>(HasSubstr("sections.width")));
+  EXPECT_THAT(make({.doorway_m = 2.2}, 0.2), ThrowsMessage<std::invalid_argument>(HasSubstr("sections.doorway: 2.2")));
+  EXPECT_THAT(make({.doorway_m = 0.35}, 0.2),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("sections.doorway: 0.35")));
+  EXPECT_THAT(make({.obstacle_m = -2.2}, 0.2),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("sections.obstacle: -2.2")));
+  EXPECT_THAT(make({.width_m = 0.7}, 0.2), ThrowsMessage<std::invalid_argument>(HasSubstr("sections.width")));
   CorridorConfig back{.vary = 0.1};
   back.sections = {{5.0}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0, 60 * kDeg}, {5.0}};
-  EXPECT_THAT([&] { plan_corridor(back, 1); }, ThrowsMessage<E>(HasSubstr("vary: 0.1; valid: 0 if")));
+  EXPECT_THAT([&] { plan_corridor(back, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("vary: 0.1; valid: 0 if")));
 }
 
 TEST(VariedWall, MovesAndResizesItsOpeningInsideIt) {
   const WallConfig config{.opening = WallOpening{.middle_m = 5.0, .bottom_m = 2.0, .width_m = 4.0, .height_m = 5.0},
                           .vary = 0.2,
-                          .texture_size_px = kSmallPx};
+                          .texture_size_px = kVariedTexturePx};
   std::array<std::vector<double>, 4> drawn;  // distance; opening's west and east edge, its top
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const Scene scene = make_wall(config, seed);
@@ -220,7 +222,7 @@ TEST(VariedWall, MovesAndResizesItsOpeningInsideIt) {
   }
   WallConfig too_high = config;
   too_high.opening->bottom_m = 3.5;
-  EXPECT_THAT([&] { make_wall(too_high, 1); }, ThrowsMessage<E>(HasSubstr("opening.bottom: 3.5")));
+  EXPECT_THAT([&] { make_wall(too_high, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("opening.bottom: 3.5")));
 }
 
 }  // namespace

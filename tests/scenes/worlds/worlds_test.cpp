@@ -21,9 +21,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using E = std::invalid_argument;
 
-constexpr int64_t kSmallPx = 64;
+constexpr int64_t kWorldTexturePx = 64;
 
 bool inside_a_box(const Scene& scene, const Vector3d& p_W) {
   return std::ranges::any_of(scene.solids, [&](const Solid& solid) {
@@ -33,10 +32,11 @@ bool inside_a_box(const Scene& scene, const Vector3d& p_W) {
 }
 
 std::vector<SceneConfig> small_worlds() {
-  return {TreeConfig{.texture_size_px = kSmallPx},     ForestConfig{.trees = 50, .texture_size_px = kSmallPx},
-          CorridorConfig{.texture_size_px = kSmallPx}, HighriseConfig{.texture_size_px = kSmallPx},
-          BalloonConfig{.texture_size_px = kSmallPx},  WallConfig{.texture_size_px = kSmallPx},
-          ParkConfig{.texture_size_px = kSmallPx}};
+  return {
+      TreeConfig{.texture_size_px = kWorldTexturePx},     ForestConfig{.trees = 50, .texture_size_px = kWorldTexturePx},
+      CorridorConfig{.texture_size_px = kWorldTexturePx}, HighriseConfig{.texture_size_px = kWorldTexturePx},
+      BalloonConfig{.texture_size_px = kWorldTexturePx},  WallConfig{.texture_size_px = kWorldTexturePx},
+      ParkConfig{.texture_size_px = kWorldTexturePx}};
 }
 
 TEST(Worlds, DependOnTheSeedOnly) {
@@ -50,12 +50,12 @@ TEST(Worlds, DependOnTheSeedOnly) {
 TEST(Worlds, RejectTextureSizesThatAreNotPowersOfTwo) {
   for (SceneConfig config : small_worlds()) {
     std::visit([](auto& chosen) { chosen.texture_size_px = 100; }, config);
-    EXPECT_THAT([&] { make_scene(config, 1); }, ThrowsMessage<E>(HasSubstr("texture_size: 100")));
+    EXPECT_THAT([&] { make_scene(config, 1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("texture_size: 100")));
   }
 }
 
 TEST(Corridor, HasItsConfiguredWidthInEverySection) {
-  CorridorConfig config{.width_m = 4.0, .texture_size_px = kSmallPx};
+  CorridorConfig config{.width_m = 4.0, .texture_size_px = kWorldTexturePx};
   config.sections = {{10.0}, {12.0, 0.7}, {8.0, -0.4, 2.8}, {8.0, 0.0, 4.0}, {15.0, -0.78}};
   const Scene scene = make_corridor(config, 1);
   const double ends_m[] = {4.0, 4.0, 4.0, 2.8, 4.0, 4.0};
@@ -81,7 +81,7 @@ TEST(Corridor, HasItsConfiguredWidthInEverySection) {
 }
 
 TEST(Corridor, IsClosedAtItsBends) {
-  CorridorConfig config{.texture_size_px = kSmallPx};
+  CorridorConfig config{.texture_size_px = kWorldTexturePx};
   config.sections = {{6.0}, {6.0, 0.785}, {6.0, -0.785}, {6.0, -0.35, 1.8}, {6.0, 0.52}};
   const Scene scene = make_corridor(config, 2);
   const CorridorPlan plan = plan_corridor(config, 2);
@@ -95,7 +95,7 @@ TEST(Corridor, IsClosedAtItsBends) {
 }
 
 TEST(Corridor, DoorwayAndPillarLeaveTheConfiguredWidth) {
-  CorridorConfig config{.width_m = 3.0, .texture_size_px = kSmallPx};
+  CorridorConfig config{.width_m = 3.0, .texture_size_px = kWorldTexturePx};
   config.sections = {{10.0, 0.0, 0.0, 1.2, 0.0}, {10.0, 0.0, 0.0, 0.0, 0.7}};
   const Scene scene = make_corridor(config, 1);
   const auto free_at = [&](double north_m, double east_m, double up_m) {
@@ -136,7 +136,7 @@ TEST(Corridor, PlainWallsDoNotChangeTheFloor) {
 TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
   for (const auto& [layout, count] :
        {std::pair{HighriseConfig::Layout::cube, 8u}, {HighriseConfig::Layout::skyline, 35u}}) {
-    const HighriseConfig config{.layout = layout, .texture_size_px = kSmallPx};
+    const HighriseConfig config{.layout = layout, .texture_size_px = kWorldTexturePx};
     const std::vector<Vector3d> corners = highrise_corners(config, 1);
     EXPECT_EQ(corners.size(), count);
     const Scene scene = make_highrise(config, 1);
@@ -151,7 +151,7 @@ TEST(Highrise, HasEightCornersOrThirtyFiveAndDrawsThem) {
 
 TEST(Wall, IsOpenInItsOpeningAndClosedAroundIt) {
   const WallConfig config{.opening = WallOpening{.middle_m = 4.0, .bottom_m = 2.0, .width_m = 3.0, .height_m = 5.0},
-                          .texture_size_px = kSmallPx};
+                          .texture_size_px = kWorldTexturePx};
   const Scene scene = make_wall(config, 1);
   for (double east_m = -14.9; east_m < 15.0; east_m += 0.37) {
     for (double up_m = 0.1; up_m < 10.0; up_m += 0.23) {
@@ -161,7 +161,7 @@ TEST(Wall, IsOpenInItsOpeningAndClosedAroundIt) {
   }
   EXPECT_FALSE(inside_a_box(scene, {19.9, 0.0, -1.0}) || inside_a_box(scene, {20.5, 0.0, -1.0}));
   EXPECT_THAT([] { make_wall({.opening = WallOpening{.bottom_m = 8.0}}, 1); },
-              ThrowsMessage<E>(HasSubstr("opening.bottom: 8")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("opening.bottom: 8")));
 }
 
 // Returns the smaller eigenvalue of the gradients at the best corner, as used by corner detectors.
@@ -187,7 +187,7 @@ TEST(Wall, CloudsHaveGradientsButNoCorners) {
 
 TEST(Park, KeepsItsClearingAndTheRoadFree) {
   for (uint64_t seed = 0; seed < 5; ++seed) {
-    const Scene scene = make_park({.texture_size_px = kSmallPx}, seed);
+    const Scene scene = make_park({.texture_size_px = kWorldTexturePx}, seed);
     for (const Solid& solid : scene.solids) {
       const Eigen::AlignedBox3d box = bounds_W(solid);
       EXPECT_GE(Vector2d(box.min().head<2>().cwiseMax(-box.max().head<2>()).cwiseMax(0.0)).norm(), 0.9 * 4.0)
@@ -195,12 +195,12 @@ TEST(Park, KeepsItsClearingAndTheRoadFree) {
       EXPECT_GT(std::max(box.min().y(), -box.max().y()), 3.0) << solid.name;
     }
   }
-  EXPECT_THAT([] { make_park({.extent_m = 40.0, .trees = 500, .vehicles = 0, .texture_size_px = kSmallPx}, 1); },
-              ThrowsMessage<E>(HasSubstr("trees: no free position after")));
+  EXPECT_THAT([] { make_park({.extent_m = 40.0, .trees = 500, .vehicles = 0, .texture_size_px = kWorldTexturePx}, 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("trees: no free position after")));
 }
 
 TEST(Balloon, ApproachesAtAHeightOfTwentyFeet) {
-  const Scene scene = make_balloon({.texture_size_px = kSmallPx}, 1);
+  const Scene scene = make_balloon({.texture_size_px = kWorldTexturePx}, 1);
   ASSERT_EQ(scene.movers.size(), 1u);
   const Solid& balloon = scene.movers[0].solids.at(0);
   EXPECT_EQ(balloon.shape, Solid::Shape::sphere);

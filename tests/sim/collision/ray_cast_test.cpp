@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMissedM = std::numeric_limits<double>::infinity();
 constexpr double kReachM = 100.0;
-constexpr double kExactM = 1e-9;
+constexpr double kRayM = 1e-9;
 constexpr double kNow = 0.0;
 
 struct Random {
@@ -44,14 +44,14 @@ CollisionWorld world_of(const std::vector<scenes::Solid>& solids, bool has_groun
 // Distance along the beam to a box, by three pairs of planes; 0 inside.
 double by_planes(const scenes::Solid& solid, const Vector3d& p_W, const Vector3d& direction_W) {
   const Vector3d p_S = solid.X_WS.inverse() * p_W, d_S = solid.X_WS.linear().transpose() * direction_W;
-  double enter_m = 0.0, leave_m = kInfinity;
+  double enter_m = 0.0, leave_m = kMissedM;
   for (int axis = 0; axis < 3; ++axis) {
     const double half_m = solid.half_extents_m[axis];
     const double one_m = (-half_m - p_S[axis]) / d_S[axis], other_m = (half_m - p_S[axis]) / d_S[axis];
     enter_m = std::max(enter_m, std::min(one_m, other_m));
     leave_m = std::min(leave_m, std::max(one_m, other_m));
   }
-  return enter_m <= leave_m ? enter_m : kInfinity;
+  return enter_m <= leave_m ? enter_m : kMissedM;
 }
 
 TEST(RayCast, DistanceOfAWallIsItsNormalDistanceOverTheCosine) {
@@ -59,8 +59,8 @@ TEST(RayCast, DistanceOfAWallIsItsNormalDistanceOverTheCosine) {
   for (const double angle_deg : {-80.0, -45.0, -10.0, 0.0, 10.0, 45.0, 80.0}) {
     const double angle = angle_deg * std::numbers::pi / 180.0;
     const Vector3d ahead(std::cos(angle), std::sin(angle), 0.0);
-    EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, ahead, kReachM, kNow), 12.0 / std::cos(angle), kExactM);
-    EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, -ahead, kReachM, kNow), kInfinity);
+    EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, ahead, kReachM, kNow), 12.0 / std::cos(angle), kRayM);
+    EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, -ahead, kReachM, kNow), kMissedM);
   }
 }
 
@@ -69,17 +69,17 @@ TEST(RayCast, DistanceOfTheGroundIsTheHeightOverTheSine) {
   for (double dive = 0.2; dive < 1.5; dive += 0.1) {
     const Vector3d down(std::cos(dive), 0.0, std::sin(dive));
     EXPECT_NEAR(world.distance_along({3.0, 4.0, -7.0}, down, kReachM, kNow), 7.0 / std::sin(dive), 1e-12);
-    EXPECT_EQ(world.distance_along({3.0, 4.0, -7.0}, {down.x(), 0.0, -down.z()}, kReachM, kNow), kInfinity);
-    EXPECT_EQ(void_below.distance_along({3.0, 4.0, -7.0}, down, kReachM, kNow), kInfinity);
+    EXPECT_EQ(world.distance_along({3.0, 4.0, -7.0}, {down.x(), 0.0, -down.z()}, kReachM, kNow), kMissedM);
+    EXPECT_EQ(void_below.distance_along({3.0, 4.0, -7.0}, down, kReachM, kNow), kMissedM);
   }
   EXPECT_EQ(world.distance_along({0.0, 0.0, 0.1}, Vector3d::UnitX(), kReachM, kNow), 0.0);
 }
 
 TEST(RayCast, EndsWithItsReach) {
   const CollisionWorld world = world_of({turned_box({13.0, 0.0, -20.0}, {1.0, 30.0, 20.0}, 0.0)});
-  EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitX(), 11.99, kNow), kInfinity);
-  EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitX(), 12.01, kNow), 12.0, kExactM);
-  EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitZ(), 9.99, kNow), kInfinity);
+  EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitX(), 11.99, kNow), kMissedM);
+  EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitX(), 12.01, kNow), 12.0, kRayM);
+  EXPECT_EQ(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitZ(), 9.99, kNow), kMissedM);
   EXPECT_NEAR(world.distance_along({0.0, 0.0, -10.0}, Vector3d::UnitZ(), 10.01, kNow), 10.0, 1e-12);
 }
 
@@ -96,18 +96,18 @@ TEST(RayCast, AgreesWithBruteForceOverRandomCities) {
     const CollisionWorld world = world_of(solids, false);
     for (int i = 0; i < 200; ++i) {
       const Vector3d p_W = random.within({90.0, 90.0, 30.0}), direction_W = random.within({1.0, 1.0, 0.4}).normalized();
-      double expected_m = kInfinity;
+      double expected_m = kMissedM;
       for (const scenes::Solid& solid : solids) {
         const double along_m = by_planes(solid, p_W, direction_W);
         if (along_m <= kReachM) expected_m = std::min(expected_m, along_m);
       }
       const double found_m = world.distance_along(p_W, direction_W, kReachM, kNow);
-      if (expected_m == kInfinity) {
-        ASSERT_EQ(found_m, kInfinity) << city << ' ' << i;
+      if (expected_m == kMissedM) {
+        ASSERT_EQ(found_m, kMissedM) << city << ' ' << i;
         continue;
       }
       ++hits;
-      ASSERT_NEAR(found_m, expected_m, kExactM) << city << ' ' << i;
+      ASSERT_NEAR(found_m, expected_m, kRayM) << city << ' ' << i;
     }
   }
   EXPECT_GT(hits, 1000);
@@ -124,9 +124,9 @@ TEST(RayCast, HitsSpheresAndCylindersAtTheRootsOfTheirEquations) {
   const CollisionWorld world = world_of({sphere, post});
   const double aside_m = 0.5;
   EXPECT_NEAR(world.distance_along({-10.0, aside_m, -10.0}, Vector3d::UnitX(), kReachM, kNow),
-              10.0 - std::sqrt(4.0 - aside_m * aside_m), kExactM);
+              10.0 - std::sqrt(4.0 - aside_m * aside_m), kRayM);
   EXPECT_NEAR(world.distance_along({10.0, aside_m, -10.0}, Vector3d::UnitX(), kReachM, kNow),
-              20.0 - std::sqrt(1.0 - aside_m * aside_m), kExactM);
+              20.0 - std::sqrt(1.0 - aside_m * aside_m), kRayM);
 }
 
 TEST(RayCast, HitsAMoverAtItsPositionAtThatTime) {
@@ -139,7 +139,7 @@ TEST(RayCast, HitsAMoverAtItsPositionAtThatTime) {
   mover.motion = motion;
   const CollisionWorld world(scene, {{dynamics::HullPart::Shape::box, Vector3d::Zero(), {0.2, 0.2, 0.1}}});
   for (const double t_s : {0.0, 3.0, 8.0}) {
-    EXPECT_NEAR(world.distance_along({-10.0, 0.0, -10.0}, Vector3d::UnitX(), kReachM, t_s), 9.0 + 2.0 * t_s, kExactM);
+    EXPECT_NEAR(world.distance_along({-10.0, 0.0, -10.0}, Vector3d::UnitX(), kReachM, t_s), 9.0 + 2.0 * t_s, kRayM);
   }
 }
 

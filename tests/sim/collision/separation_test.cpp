@@ -15,7 +15,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Shape = ConvexBody::Shape;
 
-constexpr double kExactM = 2e-7;        // separate() has 1e-7; the closed forms add rounding
+constexpr double kSeparationM = 2e-7;   // separate() has 1e-7; the closed forms add rounding
 constexpr double kBulletDepthM = 1e-4;  // accuracy of depths of overlap
 
 const Eigen::Quaterniond kLevel = Eigen::Quaterniond::Identity();
@@ -27,7 +27,7 @@ Eigen::Quaterniond random_turn(std::mt19937_64& random) {
   return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
 }
 
-Vector3d random_vector(std::mt19937_64& random, double below) {
+Vector3d random_point(std::mt19937_64& random, double below) {
   std::uniform_real_distribution<double> uniform(-below, below);
   return {uniform(random), uniform(random), uniform(random)};
 }
@@ -43,10 +43,10 @@ TEST(Separation, OfBoxesAcrossAFaceAnEdgeAndACorner) {
   const ConvexBody small(Shape::box, {1.0, 2.0, 3.0}), large(Shape::box, {4.0, 5.0, 6.0});
   const PlacedBody origin(large, Isometry3d::Identity());
   const auto distance = [&](const Vector3d& p) { return separate(PlacedBody(small, at(p)), origin).distance_m; };
-  EXPECT_NEAR(distance({8.0, 1.0, -2.0}), 3.0, kExactM);
-  EXPECT_NEAR(distance({0.5, -8.5, 2.0}), 1.5, kExactM);
-  EXPECT_NEAR(distance({8.0, 11.0, 1.0}), 5.0, kExactM);    // 3 and 4
-  EXPECT_NEAR(distance({-7.0, 10.0, 15.0}), 7.0, kExactM);  // 2, 3 and 6
+  EXPECT_NEAR(distance({8.0, 1.0, -2.0}), 3.0, kSeparationM);
+  EXPECT_NEAR(distance({0.5, -8.5, 2.0}), 1.5, kSeparationM);
+  EXPECT_NEAR(distance({8.0, 11.0, 1.0}), 5.0, kSeparationM);    // 3 and 4
+  EXPECT_NEAR(distance({-7.0, 10.0, 15.0}), 7.0, kSeparationM);  // 2, 3 and 6
 }
 
 TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
@@ -57,7 +57,7 @@ TEST(Separation, OfCrossedEdgesIsTheLengthOfTheirCommonNormal) {
   const Eigen::Quaterniond across(AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
   const PlacedBody lower(bar, at(Vector3d::Zero(), on_edge));
   const PlacedBody upper(bar, at({0.3, -0.4, -2.0 * half_diagonal_m - gap_m}, across * on_edge));
-  EXPECT_NEAR(separate(upper, lower).distance_m, gap_m, kExactM);
+  EXPECT_NEAR(separate(upper, lower).distance_m, gap_m, kSeparationM);
 }
 
 // A disc of radius R and half thickness h, tilted by theta from the wall's normal, extends R sin(theta) + h cos(theta).
@@ -73,7 +73,7 @@ TEST(Separation, OfATiltedDiscFromAWallFollowsSineAndCosine) {
     const Vector3d axis_W(std::cos(tilt), std::sin(tilt) * std::cos(yaw), std::sin(tilt) * std::sin(yaw));
     const PlacedBody placed(disc, at({0, 1, 2}, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis_W)));
     const double reach_m = radius_m * std::abs(std::sin(tilt)) + half_thickness_m * std::abs(std::cos(tilt));
-    EXPECT_NEAR(separate(placed, wall).distance_m, wall_m - reach_m, kExactM) << "tilt " << tilt;
+    EXPECT_NEAR(separate(placed, wall).distance_m, wall_m - reach_m, kSeparationM) << "tilt " << tilt;
   }
 }
 
@@ -91,7 +91,7 @@ TEST(Separation, BelowAWideCeilingIsThatOfTheHighestPointForAnyTilt) {
       const PlacedBody below(body, at({0.4, -0.2, 0.0}, q));
       const double gap_m = gap(random);
       const PlacedBody ceiling(slab, at({0.0, 0.0, -below.extent(-Vector3d::UnitZ()) - gap_m - 0.1}));
-      ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kExactM) << "roll " << roll << " pitch " << pitch;
+      ASSERT_NEAR(separate(below, ceiling).distance_m, gap_m, kSeparationM) << "roll " << roll << " pitch " << pitch;
     }
   }
 }
@@ -102,9 +102,9 @@ TEST(Separation, IsBelowEverySampledDistanceAndNearTheMinimum) {
   for (int i = 0; i < 200; ++i) {
     const double radius_m = 0.3 + share(random), half_height_m = 0.02 + 0.3 * share(random);
     const ConvexBody cylinder(Shape::cylinder, {radius_m, radius_m, half_height_m});
-    const ConvexBody box(Shape::box, Vector3d(1.0, 1.0, 1.0) + random_vector(random, 0.9));
-    const PlacedBody first(cylinder, at(random_vector(random, 4.0) + Vector3d(6, 0, 0), random_turn(random)));
-    const PlacedBody second(box, at(random_vector(random, 1.0), random_turn(random)));
+    const ConvexBody box(Shape::box, Vector3d(1.0, 1.0, 1.0) + random_point(random, 0.9));
+    const PlacedBody first(cylinder, at(random_point(random, 4.0) + Vector3d(6, 0, 0), random_turn(random)));
+    const PlacedBody second(box, at(random_point(random, 1.0), random_turn(random)));
     double best_m = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 4000; ++k) {  // the nearest point is on one of the two rims or on a flat end
       const double angle = turn(random), r = radius_m * (k % 2 ? 1.0 : std::sqrt(share(random)));
@@ -113,7 +113,7 @@ TEST(Separation, IsBelowEverySampledDistanceAndNearTheMinimum) {
       best_m = std::min(best_m, (p_2.cwiseAbs() - box.half_extents_m).cwiseMax(0.0).norm());
     }
     const double distance_m = separate(first, second).distance_m;
-    EXPECT_LE(distance_m, best_m + kExactM);
+    EXPECT_LE(distance_m, best_m + kSeparationM);
     EXPECT_GT(distance_m, best_m - 0.06);  // sampling leaves gaps of about a 20th of the radius
   }
 }
@@ -125,10 +125,10 @@ TEST(Separation, IsCertifiedByASlabBetweenTheBodies) {
   int apart = 0;
   for (int i = 0; i < 100000; ++i) {
     const double radius_m = 0.1 + 2.0 * share(random);
-    const ConvexBody part = i % 2 ? ConvexBody(Shape::box, Vector3d(1.1, 1.1, 1.1) + random_vector(random, 1.0))
+    const ConvexBody part = i % 2 ? ConvexBody(Shape::box, Vector3d(1.1, 1.1, 1.1) + random_point(random, 1.0))
                                   : ConvexBody(Shape::cylinder, {radius_m, radius_m, 0.02 + share(random)});
-    const ConvexBody building(Shape::box, Vector3d(8, 8, 30) + random_vector(random, 7.0));
-    const PlacedBody first(part, at(random_vector(random, 40.0), i % 5 ? random_turn(random) : kLevel));
+    const ConvexBody building(Shape::box, Vector3d(8, 8, 30) + random_point(random, 7.0));
+    const PlacedBody first(part, at(random_point(random, 40.0), i % 5 ? random_turn(random) : kLevel));
     const PlacedBody second(building, at(Vector3d::Zero(), i % 3 ? kLevel : random_turn(random)));
     const Separation found = separate(first, second);
     if (found.distance_m <= 0.0) {
@@ -140,7 +140,7 @@ TEST(Separation, IsCertifiedByASlabBetweenTheBodies) {
     ASSERT_NEAR((first.nearest(a) - a).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((second.nearest(b) - b).norm(), 0.0, 1e-9) << "pair " << i;
     ASSERT_NEAR((b - a).norm(), found.distance_m, 1e-9) << "pair " << i;
-    ASSERT_NEAR(-second.extent(-n) - first.extent(n), found.distance_m, kExactM) << "pair " << i;
+    ASSERT_NEAR(-second.extent(-n) - first.extent(n), found.distance_m, kSeparationM) << "pair " << i;
   }
   EXPECT_GT(apart, 50000);
 }
@@ -159,7 +159,7 @@ TEST(Separation, ChangesSignWhenADiscTouchesAWall) {
   const ConvexBody disc(Shape::cylinder, {0.9, 0.9, 0.05}), slab(Shape::box, {1.0, 40.0, 40.0});
   const PlacedBody wall(slab, at({1.0, 0.0, 0.0}));
   for (const double gap_m : {1e-3, 1e-4, 1e-5, 1e-6}) {
-    EXPECT_NEAR(separate(PlacedBody(disc, at({-0.9 - gap_m, 3.0, 5.0})), wall).distance_m, gap_m, kExactM);
+    EXPECT_NEAR(separate(PlacedBody(disc, at({-0.9 - gap_m, 3.0, 5.0})), wall).distance_m, gap_m, kSeparationM);
     EXPECT_LE(separate(PlacedBody(disc, at({-0.9 + gap_m, 3.0, 5.0})), wall).distance_m, 0.0);
   }
 }

@@ -24,7 +24,7 @@ using Shape = ConvexBody::Shape;
 constexpr double kExactM = 2e-7;  // separate() has 1e-7; the closed forms add rounding
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Isometry3d at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
+Isometry3d placed_at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
 
 Vector3d random_vector(std::mt19937_64& random, double below) {
   std::uniform_real_distribution<double> uniform(-below, below);
@@ -66,7 +66,7 @@ TEST(Spheres, SeparationIsCenterDistanceMinusRadii) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = random_vector(random, 3.0);
-    const Separation found = separate(PlacedBody(ball, at(Vector3d::Zero())), PlacedBody(marble, at(p)));
+    const Separation found = separate(PlacedBody(ball, placed_at(Vector3d::Zero())), PlacedBody(marble, placed_at(p)));
     EXPECT_NEAR(found.distance_m, p.norm() - 0.9, 1e-12);
   }
 }
@@ -88,9 +88,9 @@ TEST(Spheres, SeparationFromABodyMatchesSamples) {
 
 TEST(Spheres, DepthInsideABoxIsTheDistanceToItsSurface) {
   const ConvexBody box(Shape::box, {1.0, 2.0, 3.0}), ball(Shape::sphere, Vector3d::Constant(0.25));
-  const PlacedBody origin(box, at(Vector3d::Zero()));
-  EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.8, 0.0, 0.0}))).distance_m, -0.45, 1e-12);
-  EXPECT_NEAR(separate(origin, PlacedBody(ball, at({0.0, -1.9, 1.0}))).distance_m, -0.35, 1e-12);
+  const PlacedBody origin(box, placed_at(Vector3d::Zero()));
+  EXPECT_NEAR(separate(origin, PlacedBody(ball, placed_at({0.8, 0.0, 0.0}))).distance_m, -0.45, 1e-12);
+  EXPECT_NEAR(separate(origin, PlacedBody(ball, placed_at({0.0, -1.9, 1.0}))).distance_m, -0.35, 1e-12);
 }
 
 TEST(Polyhedra, OfABoxEqualTheBox) {
@@ -140,12 +140,12 @@ TEST(Polyhedra, NearestPointAgreesWithManySamples) {
 TEST(Polyhedra, SingleTrianglesAreFlat) {
   const ConvexBody triangle(scenes::mesh::Polyhedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
   const ConvexBody disc(Shape::cylinder, {0.5, 0.5, 0.1});
-  const PlacedBody flat(triangle, at(Vector3d::Zero()));
-  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, -3})), flat).distance_m, 2.9, kExactM);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({1, 1, 3})), flat).distance_m, 2.9, kExactM);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({-2, 1, 0})), flat).distance_m, 1.5, kExactM);
-  EXPECT_NEAR(separate(PlacedBody(disc, at({3, 3, 0})), flat).distance_m, std::numbers::sqrt2 - 0.5, kExactM);
-  EXPECT_LE(separate(PlacedBody(disc, at({1, 1, 0.05})), flat).distance_m, 0.0);
+  const PlacedBody flat(triangle, placed_at(Vector3d::Zero()));
+  EXPECT_NEAR(separate(PlacedBody(disc, placed_at({1, 1, -3})), flat).distance_m, 2.9, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, placed_at({1, 1, 3})), flat).distance_m, 2.9, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, placed_at({-2, 1, 0})), flat).distance_m, 1.5, kExactM);
+  EXPECT_NEAR(separate(PlacedBody(disc, placed_at({3, 3, 0})), flat).distance_m, std::numbers::sqrt2 - 0.5, kExactM);
+  EXPECT_LE(separate(PlacedBody(disc, placed_at({1, 1, 0.05})), flat).distance_m, 0.0);
 }
 
 TEST(Rays, EnterABodyAtZeroDistanceFromIt) {
@@ -179,7 +179,7 @@ scenes::Scene scene_of(std::vector<Solid> solids) {
   return scene;
 }
 
-std::vector<HullPart> helicopter() {
+std::vector<HullPart> small_helicopter() {
   return {{HullPart::Shape::cylinder, {0.0, 0.0, -0.3}, {0.9, 0.9, 0.03}},
           {HullPart::Shape::box, {0.1, 0.0, 0.0}, {0.4, 0.15, 0.2}}};
 }
@@ -192,7 +192,7 @@ TEST(Movers, CollideAtTheirPositionAtThatTime) {
   scenes::Scene scene =
       scene_of({scenes::mesh::solid_of("wall", Eigen::AlignedBox3d(Vector3d(-1, 30, -9), Vector3d(1, 31, 0)))});
   scene.movers = {mover};
-  CollisionWorld world(scene, helicopter());
+  CollisionWorld world(scene, small_helicopter());
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> time(0.0, 15.0);
   for (int i = 0; i < 500; ++i) {
@@ -202,8 +202,8 @@ TEST(Movers, CollideAtTheirPositionAtThatTime) {
       solid.X_WS.pretranslate(Vector3d(north_m, 0, -5));
       still.push_back(solid);
     }
-    CollisionWorld frozen(scene_of(still), helicopter());
-    const Isometry3d X_WB = at(random_vector(random, 8.0) + Vector3d(0, 3, -6));
+    CollisionWorld frozen(scene_of(still), small_helicopter());
+    const Isometry3d X_WB = placed_at(random_vector(random, 8.0) + Vector3d(0, 3, -6));
     const Proximity a = world.query(X_WB, 100.0, t_s), b = frozen.query(X_WB, 100.0, 0.0);
     ASSERT_EQ(a.collided, b.collided);
     ASSERT_EQ(a.nearest_solid, b.nearest_solid);
@@ -220,7 +220,7 @@ TEST(Movers, CollideAtTheirPositionAtThatTime) {
 TEST(HeightAboveSurface, OfASphereAndAPostIsTheirTop) {
   const CollisionWorld world(scene_of({scenes::mesh::ball_of("ball", {0, 0, -10}, 2.0),
                                        scenes::mesh::solid_of("post", scenes::mesh::Post{{9, 0, 0}, 1.0, 4.0})}),
-                             helicopter());
+                             small_helicopter());
   EXPECT_NEAR(world.height_above_surface({0, 0, -20}, 0.0), 8.0, 1e-12);
   EXPECT_NEAR(world.height_above_surface({0, 1, -20}, 0.0), 10.0 - std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(world.height_above_surface({9.6, 0.6, -20}, 0.0), 16.0, 1e-12);
@@ -233,14 +233,14 @@ TEST(CollisionWorld, SurfacesCollideAtTheirTrianglesOnly) {
   shell.polyhedron = box_faces({5, 5, 5});
   Solid hull = shell;
   hull.shape = Solid::Shape::hull;
-  CollisionWorld hollow(scene_of({shell}), helicopter()), full(scene_of({hull}), helicopter());
-  const Proximity inside = hollow.query(at(Vector3d::Zero()), 50.0, 0.0);
+  CollisionWorld hollow(scene_of({shell}), small_helicopter()), full(scene_of({hull}), small_helicopter());
+  const Proximity inside = hollow.query(placed_at(Vector3d::Zero()), 50.0, 0.0);
   EXPECT_FALSE(inside.collided);
   EXPECT_NEAR(inside.obstacle_clearance_m, 4.1, kExactM);
-  EXPECT_TRUE(full.query(at(Vector3d::Zero()), 50.0, 0.0).collided);
+  EXPECT_TRUE(full.query(placed_at(Vector3d::Zero()), 50.0, 0.0).collided);
   for (const double north_m : {7.0, 20.0, -30.0}) {
-    EXPECT_NEAR(hollow.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m,
-                full.query(at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m, kExactM);
+    EXPECT_NEAR(hollow.query(placed_at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m,
+                full.query(placed_at({north_m, 1, 0}), 50.0, 0.0).obstacle_clearance_m, kExactM);
   }
 }
 
@@ -250,7 +250,7 @@ TEST(CollisionWorld, RefusesInvalidPolyhedra) {
     solid.shape = Solid::Shape::hull;
     solid.polyhedron = box_faces({1, 1, 1});
     change(solid);
-    EXPECT_THROW(CollisionWorld(scene_of({solid}), helicopter()), std::invalid_argument);
+    EXPECT_THROW(CollisionWorld(scene_of({solid}), small_helicopter()), std::invalid_argument);
   };
   refused([](Solid& s) { s.polyhedron.faces.clear(); });
   refused([](Solid& s) { s.polyhedron.faces[0][1] = 8; });

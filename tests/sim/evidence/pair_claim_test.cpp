@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kPrinted6 = 0.6e-6;  // references with six decimals
+constexpr double kPairPrinted6 = 0.6e-6;  // references with six decimals
 constexpr double kConfidence = 0.95;
 
 PairTally counted(const PairClaim& claim, const std::vector<std::array<double, 2>>& pairs) {
@@ -37,8 +37,8 @@ TEST(MeanBets, MatchReferenceValues) {
     at_04.add(x);
     at_08.add(x);
   }
-  EXPECT_NEAR(at_04.ln_above(), 0.233930, kPrinted6);
-  EXPECT_NEAR(at_08.ln_below(), 0.631311, kPrinted6);
+  EXPECT_NEAR(at_04.ln_above(), 0.233930, kPairPrinted6);
+  EXPECT_NEAR(at_08.ln_below(), 0.631311, kPairPrinted6);
 }
 
 TEST(AnytimeMeanInterval, MatchesReferenceValues) {
@@ -50,8 +50,8 @@ TEST(AnytimeMeanInterval, MatchesReferenceValues) {
     std::vector<double> x;
     for (int i = 1; i <= row.n; ++i) x.push_back(std::fmod(0.6180339887498949 * i, 1.0));
     const Interval interval = anytime_mean_interval(x, kConfidence);
-    EXPECT_NEAR(interval.low, row.low, kPrinted6);
-    EXPECT_NEAR(interval.high, row.high, kPrinted6);
+    EXPECT_NEAR(interval.low, row.low, kPairPrinted6);
+    EXPECT_NEAR(interval.high, row.high, kPairPrinted6);
   }
   EXPECT_EQ(anytime_mean_interval({}, kConfidence).high, 1.0);
 }
@@ -64,7 +64,7 @@ TEST(PairTally, MatchesReferenceEvidenceOfDiscordantPairs) {
   for (const Row& row : {Row{5, 0, 3.037320}, Row{8, 1, 2.381044}, Row{10, 1, 3.541112}, Row{20, 8, 0.955496},
                          Row{3, 3, -1.763880}, Row{0, 0, 0.0}}) {
     const PairTally tally = of_counts("collision: better", row.base_fails, row.candidate_fails, 100);
-    EXPECT_NEAR(tally.figures().at("ln_e_for").get<double>(), row.ln_e, kPrinted6);
+    EXPECT_NEAR(tally.figures().at("ln_e_for").get<double>(), row.ln_e, kPairPrinted6);
   }
   EXPECT_EQ(of_counts("collision: better", 5, 0, 0).standing(), Standing::shown);
   EXPECT_EQ(of_counts("collision: better", 4, 0, 0).standing(), Standing::undecided);
@@ -73,9 +73,9 @@ TEST(PairTally, MatchesReferenceEvidenceOfDiscordantPairs) {
 
 TEST(PairTally, MatchesReferenceEvidenceOfNoLoss) {
   EXPECT_NEAR(of_counts("collision: no worse by 0.02", 7, 3, 390).figures().at("ln_e_for").get<double>(), 3.489116,
-              kPrinted6);
+              kPairPrinted6);
   const PairTally none = of_counts("collision: no worse by 0.05", 0, 0, 200);
-  EXPECT_NEAR(none.figures().at("ln_e_for").get<double>(), 4.695099, kPrinted6);
+  EXPECT_NEAR(none.figures().at("ln_e_for").get<double>(), 4.695099, kPairPrinted6);
   EXPECT_EQ(none.standing(), Standing::shown);
 }
 

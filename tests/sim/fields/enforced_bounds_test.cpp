@@ -21,7 +21,7 @@ using fields::Edge;
 
 /// Why `make` refuses, or "".
 template <class Make>
-std::string refusal(const Make& make) {
+std::string refusal_of(const Make& make) {
   try {
     make();
   } catch (const std::invalid_argument& fault) {
@@ -44,7 +44,7 @@ int hold_to_bounds(const Config& config, std::string_view prefix, const Make& ma
       count = setter.count();
       if (setter.key().empty()) continue;
       ++held;
-      const std::string said = refusal([&] { make(changed, setter.key()); });
+      const std::string said = refusal_of([&] { make(changed, setter.key()); });
       const bool by_bound = said.find(setter.key() + ": must be ") != std::string::npos;
       EXPECT_EQ(by_bound, !is_inside(edge)) << setter.key() << " at edge " << static_cast<int>(edge) << ": " << said;
     }

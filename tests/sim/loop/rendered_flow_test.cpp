@@ -16,7 +16,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr double kRangeM = 5.0;
-constexpr double kPeriodS = 0.02;
+constexpr double kFlowPeriodS = 0.02;
 
 /// A wall of the city's kind, 60 m wide, 5 m north of the origin and facing it.
 scenes::Scene textured_plane(uint64_t seed) {
@@ -85,10 +85,10 @@ double largest_loom_of_rotation_per_s(const vision::flow::ImageInterpolationConf
       cv::Mat older, newer;
       renderer.draw(looking_north({0, 0, 0}), older);
       const Eigen::Vector3d w_C(rate(random), rate(random), rate(random));
-      renderer.draw(looking_north({0, 0, 0}, w_C * kPeriodS), newer);
+      renderer.draw(looking_north({0, 0, 0}, w_C * kFlowPeriodS), newer);
       flow.update(older);
       const vision::flow::FlowAverage loom =
-          vision::flow::loom(flow.update(newer), kPeriodS, vision::flow::Missing::skip);
+          vision::flow::loom(flow.update(newer), kFlowPeriodS, vision::flow::Missing::skip);
       largest_per_s = std::max(largest_per_s, std::abs(loom.value));
     }
   }
@@ -116,9 +116,9 @@ TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
   renderer.draw(looking_north({0, 0, 0}), older);
   renderer.draw(looking_north({kStepM, 0, 0}), newer);
   flow.update(older);
-  const double loom_per_s = vision::flow::loom(flow.update(newer), kPeriodS, vision::flow::Missing::skip).value;
+  const double loom_per_s = vision::flow::loom(flow.update(newer), kFlowPeriodS, vision::flow::Missing::skip).value;
   // Between the two images the range shrinks by a factor: flow is measured from the older one.
-  EXPECT_NEAR(loom_per_s, kStepM / (kRangeM - kStepM) / kPeriodS, 0.01);
+  EXPECT_NEAR(loom_per_s, kStepM / (kRangeM - kStepM) / kFlowPeriodS, 0.01);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = nlohmann::ordered_json;
 
-FlightRecord made_up(bool collided, double figure) {
+FlightRecord made_up_film(bool collided, double figure) {
   FlightRecord record{.status = FlightRecord::Status::flown};
   FlightResult& result = record.result.emplace().flight;
   result.outcome = collided ? Outcome::collided : Outcome::reached;
@@ -30,7 +30,7 @@ TEST(WorstFlights, AreNotBetterThanOmittedFlights) {
     std::vector<FlightRecord> records;
     const auto flights = random() % 12;
     for (uint64_t i = 0; i < flights; ++i) {
-      records.push_back(made_up(random() % 2 == 0, static_cast<double>(random() % 1000)));
+      records.push_back(made_up_film(random() % 2 == 0, static_cast<double>(random() % 1000)));
       if (random() % 5 == 0) records.back().status = FlightRecord::Status::failed;
     }
     const size_t count = random() % 8;

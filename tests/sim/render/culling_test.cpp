@@ -12,7 +12,7 @@
 namespace hedgehop::sim {
 namespace {
 
-const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(200, 150, 1.4);
+const vision::camera::PinholeCamera kCulledCamera = vision::camera::PinholeCamera::from_fov(200, 150, 1.4);
 
 /// Returns z in C of the first intersection of the ray of a pixel with a solid, computed analytically (slabs); infinite
 /// if there is none.
@@ -55,7 +55,7 @@ void expect_equal_pixels(const scenes::Scene& scene, double half_m, double heigh
   cv::Mat all, culled;
   for (int trial = 0; trial < trials; ++trial) {
     const double tilt_rad = trial % 4 == 0 ? 1.5 : 0.4;
-    const CameraView view{kCamera, random_pose(random, half_m, height_m, tilt_rad), ImageChannel::depth};
+    const CameraView view{kCulledCamera, random_pose(random, half_m, height_m, tilt_rad), ImageChannel::depth};
     everything.draw(view, all);
     for (Renderer* renderer : {&frustum, &horizon}) {
       renderer->draw(view, culled);
@@ -95,7 +95,7 @@ TEST(Culling, ChangesNoGreyOrColorPixelOfASmallCity) {
   cv::Mat all, culled;
   for (int trial = 0; trial < 100; ++trial) {
     const auto channel = trial % 2 == 0 ? ImageChannel::grey : ImageChannel::color;
-    const CameraView view{kCamera, random_pose(random, 230.0, 30.0, 0.5), channel};
+    const CameraView view{kCulledCamera, random_pose(random, 230.0, 30.0, 0.5), channel};
     everything.draw(view, all);
     horizon.draw(view, culled);
     ASSERT_EQ(std::memcmp(all.data, culled.data, all.total() * all.elemSize()), 0) << "trial " << trial;
@@ -110,7 +110,7 @@ TEST(Culling, SkipsMostOfALargeCitySeenFromItsStreets) {
   cv::Mat grey;
   size_t visible = 0, in_frustum = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const CameraView view{kCamera, random_pose(random, 300.0, 12.0, 0.1), ImageChannel::grey};
+    const CameraView view{kCulledCamera, random_pose(random, 300.0, 12.0, 0.1), ImageChannel::grey};
     horizon.draw(view, grey);
     frustum.draw(view, grey);
     visible += horizon.drawn().triangles;

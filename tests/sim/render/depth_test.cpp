@@ -11,8 +11,8 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kRelative = 1e-4;
-constexpr double kEdgePx = 0.02;
+constexpr double kDepthRelative = 1e-4;
+constexpr double kDepthEdgePx = 0.02;
 
 TEST(Depth, EqualsRayCastingOfBoxesAndGround) {
   std::mt19937_64 random(21);
@@ -38,7 +38,7 @@ TEST(Depth, EqualsRayCastingOfBoxesAndGround) {
     renderer.draw(view, depth);
     for (int row = 0; row < depth.rows; ++row) {
       for (int col = 0; col < depth.cols; ++col) {
-        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kEdgePx);
+        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kDepthEdgePx);
         if (!hit) continue;
         const auto z_m = static_cast<double>(depth.at<float>(row, col));
         ++compared;
@@ -47,7 +47,7 @@ TEST(Depth, EqualsRayCastingOfBoxesAndGround) {
               << "trial " << trial << ", pixel " << col << ", " << row;
         } else {
           ++surfaces;
-          ASSERT_NEAR(z_m / hit->z_m, 1.0, kRelative) << "trial " << trial << ", pixel " << col << ", " << row;
+          ASSERT_NEAR(z_m / hit->z_m, 1.0, kDepthRelative) << "trial " << trial << ", pixel " << col << ", " << row;
         }
       }
     }
@@ -71,8 +71,8 @@ TEST(Depth, IsAccurateFarFromTheOriginAndAtShortRange) {
                   depth);
     double nearest = 0, farthest = 0;
     cv::minMaxLoc(depth, &nearest, &farthest);
-    EXPECT_NEAR(nearest / range_m, 1.0, kRelative);
-    EXPECT_NEAR(farthest / range_m, 1.0, kRelative);
+    EXPECT_NEAR(nearest / range_m, 1.0, kDepthRelative);
+    EXPECT_NEAR(farthest / range_m, 1.0, kDepthRelative);
   }
 }
 

@@ -56,13 +56,13 @@ struct Forest {
   }
 };
 
-const vision::camera::PinholeCamera kCamera = vision::camera::PinholeCamera::from_fov(400, 400, 1.57);
+const vision::camera::PinholeCamera kFarCamera = vision::camera::PinholeCamera::from_fov(400, 400, 1.57);
 /// Distance at which the thinnest trunk, which has three sides, is one pixel wide.
-const double kFarM = 0.125 * std::sqrt(3.0) * kCamera.focal_x_px;
+const double kFarM = 0.125 * std::sqrt(3.0) * kFarCamera.focal_x_px;
 
 CameraView random_view(std::mt19937_64& random, double height_m) {
   const double heading_rad = uniform(random, -3.0, 3.0);
-  return {kCamera, level({uniform(random, -40.0, 40.0), uniform(random, -40.0, 40.0), -height_m}, heading_rad)};
+  return {kFarCamera, level({uniform(random, -40.0, 40.0), uniform(random, -40.0, 40.0), -height_m}, heading_rad)};
 }
 
 /// Share of pixels that change, and root mean square of the change, grey levels.
@@ -168,7 +168,7 @@ TEST(FarDetail, IsEqualForBothCamerasOfAStereoPair) {
     for (Renderer* renderer : {&by_size, &full}) {
       renderer->draw(left, left_m);
       renderer->draw(right, right_m);
-      (renderer == &full ? through_whole : through) += seen_past(left_m, right_m, kCamera.focal_x_px, kBaselineM);
+      (renderer == &full ? through_whole : through) += seen_past(left_m, right_m, kFarCamera.focal_x_px, kBaselineM);
     }
   }
   RecordProperty("through", through);

@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kRelative = 1e-4, kEdgePx = 0.02;
+constexpr double kMovingRelative = 1e-4, kMovingEdgePx = 0.02;
 
 TEST(Moving, DepthAndLabelsShowMovingObstaclesAtTheirPositions) {
   const MovingWorld world(301);
@@ -28,14 +28,14 @@ TEST(Moving, DepthAndLabelsShowMovingObstaclesAtTheirPositions) {
     renderer.draw(view, labels);
     for (int row = 0; row < depth.rows; ++row) {
       for (int col = 0; col < depth.cols; ++col) {
-        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kEdgePx);
+        const std::optional<Hit> hit = clear_hit(cast, view, col, row, kMovingEdgePx);
         if (!hit) continue;
         ++compared;
         ASSERT_TRUE(world.is_label(*hit, labels.at<int>(row, col)))
             << "trial " << trial << ": " << col << ", " << row << ", body " << hit->body();
         if (hit->face < 0) continue;
         movers += hit->body() > 20;
-        ASSERT_NEAR(static_cast<double>(depth.at<float>(row, col)) / hit->z_m, 1.0, kRelative)
+        ASSERT_NEAR(static_cast<double>(depth.at<float>(row, col)) / hit->z_m, 1.0, kMovingRelative)
             << "trial " << trial << ": " << col << ", " << row;
       }
     }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidthPx = 200, kHeightPx = 160;
 constexpr double kFocalPx = 150.0;
-const vision::camera::PinholeCamera kCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
+const vision::camera::PinholeCamera kSampledCamera{kWidthPx, kHeightPx, kFocalPx, kFocalPx, 99.5, 79.5};
 
 CameraView view_of(const vision::camera::Camera& camera, ImageChannel channel, int samples) {
   CameraView view{camera, look_at({0, 0, -5}, {1, 0, -5}), channel};  // u runs east, v down
@@ -44,12 +44,12 @@ TEST(Multisampling, HalvesTheErrorOfASlantedEdge) {
     const SmallWorld world = half_plane(slope);
     Renderer renderer = make_renderer(world.scene);
     cv::Mat one, four;
-    renderer.draw(view_of(kCamera, ImageChannel::grey, 1), one);
-    renderer.draw(view_of(kCamera, ImageChannel::grey, 4), four);
+    renderer.draw(view_of(kSampledCamera, ImageChannel::grey, 1), one);
+    renderer.draw(view_of(kSampledCamera, ImageChannel::grey, 4), four);
     const std::vector<double> rough_px = edge_px(one), fine_px = edge_px(four);
     double mean_px = 0.0, rough_square = 0.0, fine_square = 0.0;
     for (int v = 0; v < kHeightPx; ++v) {
-      const double truth_px = kCamera.center_u_px + slope * (v - kCamera.center_v_px);
+      const double truth_px = kSampledCamera.center_u_px + slope * (v - kSampledCamera.center_v_px);
       mean_px += (fine_px[static_cast<size_t>(v)] - truth_px) / kHeightPx;
       fine_square += std::pow(fine_px[static_cast<size_t>(v)] - truth_px, 2);
       rough_square += std::pow(rough_px[static_cast<size_t>(v)] - truth_px, 2);
@@ -95,8 +95,8 @@ TEST(Multisampling, DoesNotChangeDepthLabelsAndFlow) {
   Renderer renderer = make_renderer(city.scene);
   for (const ImageChannel channel : {ImageChannel::depth, ImageChannel::labels, ImageChannel::flow}) {
     cv::Mat one, four;
-    renderer.draw(view_of(kCamera, channel, 1), one);
-    renderer.draw(view_of(kCamera, channel, 4), four);
+    renderer.draw(view_of(kSampledCamera, channel, 1), one);
+    renderer.draw(view_of(kSampledCamera, channel, 4), four);
     ASSERT_EQ(one.type(), four.type());
     EXPECT_EQ(std::memcmp(one.data, four.data, one.total() * one.elemSize()), 0);
   }
@@ -119,7 +119,7 @@ TEST(Multisampling, IsRejectedIfTheRendererLacksTheNumberOfSamples) {
   EXPECT_THAT(fault(2), testing::HasSubstr("this OpenGL uses 4"));
   EXPECT_THAT(fault(3), testing::HasSubstr("valid: 1, 2, 4, 8"));
   cv::Mat image;
-  EXPECT_THROW(renderer.draw(view_of(kCamera, ImageChannel::grey, 8), image), std::invalid_argument);
+  EXPECT_THROW(renderer.draw(view_of(kSampledCamera, ImageChannel::grey, 8), image), std::invalid_argument);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Eigen::Vector2d expected_pixel(const CameraView& view, const Eigen::Vector3d& p_
   return {camera.focal_x_px * x / z + camera.center_u_px, camera.focal_y_px * y / z + camera.center_v_px};
 }
 
-Eigen::Vector2d centroid(const cv::Mat& grey) {
+Eigen::Vector2d bright_centroid(const cv::Mat& grey) {
   const cv::Moments moments = cv::moments(grey);
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
@@ -72,7 +72,7 @@ TEST(Projection, DrawsPointsAtTheirExpectedPixels) {
     world.add_quad(top_left_W.cast<float>(), right_W.cast<float>(), down_W.cast<float>());
     make_renderer(world.scene).draw(view, grey);
 
-    const double error_px = (centroid(grey) - expected_pixel(view, center_W)).norm();
+    const double error_px = (bright_centroid(grey) - expected_pixel(view, center_W)).norm();
     EXPECT_LT(error_px, kSubPixel) << "trial " << trial << ", z " << z_m;
     sum_squares += error_px * error_px;
   }
@@ -91,7 +91,7 @@ TEST(Projection, StereoPairShowsAPointOnOneRowAtItsDisparity) {
   cv::Mat left, right;
   renderer.draw({camera, X_WC, ImageChannel::grey}, left);
   renderer.draw({camera, X_WCr, ImageChannel::grey}, right);
-  const Eigen::Vector2d shift_px = centroid(left) - centroid(right);
+  const Eigen::Vector2d shift_px = bright_centroid(left) - bright_centroid(right);
   EXPECT_NEAR(shift_px.y(), 0.0, 0.01);
   EXPECT_NEAR(shift_px.x(), camera.focal_x_px * baseline_m / 12.0, kSubPixel);
 }

@@ -8,7 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
-const vision::camera::PinholeCamera kCamera{320, 320, 200, 200, 159.5, 159.5};
+const vision::camera::PinholeCamera kShadowCamera{320, 320, 200, 200, 159.5, 159.5};
 constexpr uint8_t kLit = 255, kShaded = 102;  // white, times 1 and 0.4
 
 /// White ground and a box on it. Ambient light and sun together give the ground its full albedo.
@@ -50,8 +50,8 @@ TEST(Shadows, OfABoxOnTheGroundHaveTheShapeOfItsProjection) {
     const SmallWorld world = box_on_ground(box_W, to_sun_W);
     Renderer renderer = make_renderer(world.scene, Culling::frustum_and_horizon, Shadows::sun);
     cv::Mat grey, depth;
-    renderer.draw({kCamera, X_WC, ImageChannel::grey}, grey);
-    renderer.draw({kCamera, X_WC, ImageChannel::depth}, depth);
+    renderer.draw({kShadowCamera, X_WC, ImageChannel::grey}, grey);
+    renderer.draw({kShadowCamera, X_WC, ImageChannel::depth}, depth);
     int shaded = 0;
     double error_m2 = 0.0, drawn_m2 = 0.0;
     const double pixel_m2 = std::pow(30.0 / 200.0, 2);
@@ -59,7 +59,7 @@ TEST(Shadows, OfABoxOnTheGroundHaveTheShapeOfItsProjection) {
       for (int u = 0; u < grey.cols; ++u) {
         if (depth.at<float>(v, u) < 29.999f) continue;  // the box itself
         const Eigen::Vector3d p_W =
-            X_WC * (30.0 * kCamera.ray_at_unit_depth({u, v}) / kCamera.ray_at_unit_depth({u, v}).z());
+            X_WC * (30.0 * kShadowCamera.ray_at_unit_depth({u, v}) / kShadowCamera.ray_at_unit_depth({u, v}).z());
         const auto hit = [&](double margin_m) {
           return length_in_box(p_W, to_sun_W.cast<double>(), box_W, margin_m) > 0.0;
         };
@@ -113,12 +113,12 @@ TEST(Shadows, DarkenNoSunlitFace) {
       const double turn = uniform(random, -3.14, 3.14);
       const Eigen::Isometry3d X_WC = look_at({14 * std::cos(turn), 14 * std::sin(turn), -12}, {0, 0, -4});
       cv::Mat without, with, depth;
-      plain.draw({kCamera, X_WC, ImageChannel::grey}, without);
-      shaded.draw({kCamera, X_WC, ImageChannel::grey}, with);
-      shaded.draw({kCamera, X_WC, ImageChannel::depth}, depth);
+      plain.draw({kShadowCamera, X_WC, ImageChannel::grey}, without);
+      shaded.draw({kShadowCamera, X_WC, ImageChannel::grey}, with);
+      shaded.draw({kShadowCamera, X_WC, ImageChannel::depth}, depth);
       for (int v = 0; v < depth.rows; ++v) {
         for (int u = 0; u < depth.cols; ++u) {
-          const Eigen::Vector3d ray_C = kCamera.ray_at_unit_depth({u, v});
+          const Eigen::Vector3d ray_C = kShadowCamera.ray_at_unit_depth({u, v});
           const Eigen::Vector3d p_W = X_WC * (depth.at<float>(v, u) / ray_C.z() * ray_C);
           if (!p_W.allFinite() || p_W.norm() > 20.0 || edge_texels(p_W, to_sun_W.cast<double>()) < 2.0) continue;
           EXPECT_NEAR(with.at<uint8_t>(v, u), without.at<uint8_t>(v, u), 1) << u << " " << v;
@@ -140,7 +140,7 @@ TEST(Shadows, FallOnMovingObstaclesThatCastNone) {
   Renderer renderer = make_renderer(world.scene, Culling::frustum_and_horizon, Shadows::sun);
   const auto level_at = [&](double north_m, double t_s) {
     cv::Mat grey;
-    renderer.draw({kCamera, look_at({north_m, 0, -30}, {north_m, 0, 0}), ImageChannel::grey, t_s}, grey);
+    renderer.draw({kShadowCamera, look_at({north_m, 0, -30}, {north_m, 0, 0}), ImageChannel::grey, t_s}, grey);
     return grey.at<uint8_t>(160, 160);
   };
   // The south edge of the roof, 10 m high at -3 m, shades the ground up to -10.5 m and the top of the slab up to -9.75

@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kRigRadPerDeg = std::numbers::pi / 180.0;
 
 /// The one camera of a rig file that has these keys and a role.
 CameraConfig camera_of(const std::string& keys) {
@@ -63,8 +63,8 @@ TEST(RigFile, TheFieldOfViewHoldsAcrossTheRowOfADistortedLens) {
 TEST(RigFile, AFisheyeEndsAtItsLimit) {
   Folder folder;
   const vision::camera::Camera camera = camera_of("model: fisheye, fov: 190, view_limit: 97").model();
-  EXPECT_TRUE(camera.project({std::sin(96.9 * kRadPerDeg), 0, std::cos(96.9 * kRadPerDeg)}).has_value());
-  EXPECT_FALSE(camera.project({std::sin(97.1 * kRadPerDeg), 0, std::cos(97.1 * kRadPerDeg)}).has_value());
+  EXPECT_TRUE(camera.project({std::sin(96.9 * kRigRadPerDeg), 0, std::cos(96.9 * kRigRadPerDeg)}).has_value());
+  EXPECT_FALSE(camera.project({std::sin(97.1 * kRigRadPerDeg), 0, std::cos(97.1 * kRigRadPerDeg)}).has_value());
 }
 
 TEST(RigFile, ACalibrationIsRelativeToTheFileThatNamesIt) {

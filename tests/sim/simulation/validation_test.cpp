@@ -68,7 +68,7 @@ const std::vector<ScenarioError>& scenario_errors() {
   return errors;
 }
 
-Scenario city() { return load_scenario(kConfigs / "garratt2009_city_0.yaml"); }
+Scenario validated_city() { return load_scenario(kConfigs / "garratt2009_city_0.yaml"); }
 
 /// The messages of a file, without their positions.
 std::vector<std::string> without_positions(std::vector<std::string> lines) {
@@ -79,7 +79,7 @@ std::vector<std::string> without_positions(std::vector<std::string> lines) {
 TEST(Validation, RefusesAScenarioOfAProgramWithTheTextForItsFile) {
   Folder folder;
   for (const ScenarioError& error : scenario_errors()) {
-    Scenario scenario = city();
+    Scenario scenario = validated_city();
     error.make(scenario);
     const std::vector<std::string> of_struct = faults_of([&] { Simulation simulation(scenario); });
     EXPECT_THAT(of_struct, testing::Contains(testing::HasSubstr(std::string(error.message))));
@@ -90,7 +90,7 @@ TEST(Validation, RefusesAScenarioOfAProgramWithTheTextForItsFile) {
 }
 
 TEST(Validation, DoesNotCoverAModuleOfTheCaller) {
-  Scenario scenario = city();
+  Scenario scenario = validated_city();
   std::erase_if(scenario.rig.cameras, [](const CameraConfig& camera) { return camera.role == "front"; });
   EXPECT_THAT(faults_of([&] { Simulation simulation(scenario); }), testing::Not(testing::IsEmpty()));
   EXPECT_THAT(faults_of([&] { Simulation simulation(scenario, hovering(scenario.rig, {"down"})); }),

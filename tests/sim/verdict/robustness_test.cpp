@@ -23,20 +23,21 @@ SampledSignals sampled(double dt_s, std::vector<double> x, std::vector<double> y
   return signals;
 }
 
-std::vector<double> values(const std::string& formula) {
+std::vector<double> robustness_values(const std::string& formula) {
   return robustness(parse_formula(formula), sampled(1.0, {1, 2, 3, -1, 2, 1}, {-3, -2, -1, 2, 1, 0})).value;
 }
 
 /// Values of two other evaluators, one of them rtamt.
 TEST(Robustness, EqualsReferenceValuesOnSixSamples) {
-  EXPECT_THAT(values("always[0,2] (north>=0)"), ElementsAre(1, -1, -1, -1, 1, 1));
-  EXPECT_THAT(values("eventually[1,3] (east>=0)"), ElementsAre(2, 2, 2, 1, 0, -kInf));
-  EXPECT_THAT(values("always[4,6] (north>=0)"), ElementsAre(1, 1, kInf, kInf, kInf, kInf));
-  EXPECT_THAT(values("eventually[4,6] (east>=0)"), ElementsAre(1, 0, -kInf, -kInf, -kInf, -kInf));
-  EXPECT_THAT(values("(north>=0) until[0,3] (east>=0)"), ElementsAre(1, 2, 2, 2, 1, 0));
-  EXPECT_THAT(values("(north>=0) until[2,3] (east>=0)"), ElementsAre(1, 2, -1, -1, -kInf, -kInf));
-  EXPECT_THAT(values("always[0,3] (eventually[0,2] (east>=0))"), ElementsAre(-1, 1, 0, 0, 0, 0));
-  EXPECT_THAT(values("always ((north<=0) -> eventually[0,1] (east>=1.5))"), ElementsAre(.5, .5, .5, .5, 1, 1));
+  EXPECT_THAT(robustness_values("always[0,2] (north>=0)"), ElementsAre(1, -1, -1, -1, 1, 1));
+  EXPECT_THAT(robustness_values("eventually[1,3] (east>=0)"), ElementsAre(2, 2, 2, 1, 0, -kInf));
+  EXPECT_THAT(robustness_values("always[4,6] (north>=0)"), ElementsAre(1, 1, kInf, kInf, kInf, kInf));
+  EXPECT_THAT(robustness_values("eventually[4,6] (east>=0)"), ElementsAre(1, 0, -kInf, -kInf, -kInf, -kInf));
+  EXPECT_THAT(robustness_values("(north>=0) until[0,3] (east>=0)"), ElementsAre(1, 2, 2, 2, 1, 0));
+  EXPECT_THAT(robustness_values("(north>=0) until[2,3] (east>=0)"), ElementsAre(1, 2, -1, -1, -kInf, -kInf));
+  EXPECT_THAT(robustness_values("always[0,3] (eventually[0,2] (east>=0))"), ElementsAre(-1, 1, 0, 0, 0, 0));
+  EXPECT_THAT(robustness_values("always ((north<=0) -> eventually[0,1] (east>=1.5))"),
+              ElementsAre(.5, .5, .5, .5, 1, 1));
 }
 
 TEST(Robustness, EqualsReferenceValuesOnAThousandSamples) {

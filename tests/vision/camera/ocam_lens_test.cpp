@@ -18,7 +18,7 @@ namespace hedgehop::vision::camera {
 namespace {
 
 const std::filesystem::path kCalibrations = kRealData / "ocam";
-constexpr double kRoundTripPx = 0.05;
+constexpr double kOcamRoundTripPx = 0.05;
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -68,7 +68,7 @@ TEST_P(RealCalibration, RoundTripOverTheImageIsBelowATwentiethPixel) {
   RecordProperty("worst_by_inverse_px", std::to_string(worst_by_inverse_px));
   EXPECT_GT(shown, static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px) / 9 * 7 / 10);
   EXPECT_LT(worst_px, 1e-6);
-  EXPECT_LT(worst_by_inverse_px, kRoundTripPx);
+  EXPECT_LT(worst_by_inverse_px, kOcamRoundTripPx);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RealCalibration, testing::Values("board", "lobby"));
@@ -133,7 +133,7 @@ TEST(OcamLens, ExceedsNinetyDegreesOffAxis) {
   EXPECT_NEAR(camera.project(9.0 * left).value().x(), 0.0, 1e-9);
 }
 
-std::string refusal(const std::string& text) {
+std::string ocam_refusal(const std::string& text) {
   try {
     Camera camera(parse_ocam_calibration(text));
   } catch (const std::invalid_argument& error) {
@@ -148,15 +148,15 @@ std::string with(std::string text, const std::string& old, const std::string& re
 
 TEST(OcamLens, ReportsTheReasonForInvalidCalibrations) {
   const std::string good = kSmallCalibration;
-  EXPECT_EQ(refusal(good), "");
-  EXPECT_THAT(refusal(""), testing::HasSubstr("ends before its direct polynomial"));
-  EXPECT_THAT(refusal(good.substr(0, good.size() - 8)), testing::HasSubstr("ends before its image size"));
-  EXPECT_THAT(refusal(with(good, "5 -2.2", "6 -2.2")), testing::HasSubstr("must count the coefficients"));
-  EXPECT_THAT(refusal(with(good, "241.25 374.5", "241.25 x")), testing::HasSubstr("expected numbers"));
-  EXPECT_THAT(refusal(with(good, "241.25 374.5", "241.25")), testing::HasSubstr("expected 2 numbers, got 1"));
-  EXPECT_THAT(refusal(with(good, "-2.2e+02", "2.2e+02")), testing::HasSubstr("begin below 0"));
-  EXPECT_THAT(refusal(with(good, "480 752", "480 -752")), testing::HasSubstr("image size"));
-  EXPECT_THAT(refusal(with(good, "0.9985 0.0004", "-0.9985 0.0004")), testing::HasSubstr("mirror"));
+  EXPECT_EQ(ocam_refusal(good), "");
+  EXPECT_THAT(ocam_refusal(""), testing::HasSubstr("ends before its direct polynomial"));
+  EXPECT_THAT(ocam_refusal(good.substr(0, good.size() - 8)), testing::HasSubstr("ends before its image size"));
+  EXPECT_THAT(ocam_refusal(with(good, "5 -2.2", "6 -2.2")), testing::HasSubstr("must count the coefficients"));
+  EXPECT_THAT(ocam_refusal(with(good, "241.25 374.5", "241.25 x")), testing::HasSubstr("expected numbers"));
+  EXPECT_THAT(ocam_refusal(with(good, "241.25 374.5", "241.25")), testing::HasSubstr("expected 2 numbers, got 1"));
+  EXPECT_THAT(ocam_refusal(with(good, "-2.2e+02", "2.2e+02")), testing::HasSubstr("begin below 0"));
+  EXPECT_THAT(ocam_refusal(with(good, "480 752", "480 -752")), testing::HasSubstr("image size"));
+  EXPECT_THAT(ocam_refusal(with(good, "0.9985 0.0004", "-0.9985 0.0004")), testing::HasSubstr("mirror"));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace hedgehop::vision::corridor {
 namespace {
 
 constexpr double kDtS = 0.1;
-constexpr int kRimPx = 7;
+constexpr int kCornerRimPx = 7;
 
 // Two images of a wall across the path, 0.1 s of flight apart.
 struct Pair {
@@ -39,7 +39,7 @@ struct Pair {
     newer = draw(p_WC1 + motion.traveled_H, motion.R_HC2);
   }
   std::optional<ApproachRate> measure() const {
-    return ApproachMeter({}, camera, looking_down(), {}, kRimPx).measure(older, newer, motion);
+    return ApproachMeter({}, camera, looking_down(), {}, kCornerRimPx).measure(older, newer, motion);
   }
 };
 
@@ -88,7 +88,7 @@ TEST(ApproachRate, IsUnknownForABlankWall) {
 
 TEST(ApproachRate, RejectsInvalidConfigs) {
   for (const ApproachConfig& config : {ApproachConfig{.half_width_rad = 0.0}, ApproachConfig{.sigma_per_s = 0.0}}) {
-    EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kRimPx), std::invalid_argument);
+    EXPECT_THROW(ApproachMeter(config, whole_fisheye(), looking_down(), {}, kCornerRimPx), std::invalid_argument);
   }
 }
 

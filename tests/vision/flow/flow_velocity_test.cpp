@@ -11,8 +11,8 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-const camera::PinholeCamera kCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
-constexpr double kPeriodS = 0.02;
+const camera::PinholeCamera kVelocityCamera = camera::PinholeCamera::from_fov(400, 400, std::numbers::pi / 2);
+constexpr double kVelocityPeriodS = 0.02;
 
 // A camera under the fuselage that looks down: C's x is B's y, C's y is -B's x.
 Eigen::Isometry3d down_camera() {
@@ -40,7 +40,7 @@ Flight random_flight(std::mt19937_64& random) {
                 Eigen::AngleAxisd(0.25 * uniform(random), Eigen::Vector3d::UnitX());
   motion.w_WB_B = 0.4 * Eigen::Vector3d{uniform(random), uniform(random), uniform(random)};
   motion.height_above_ground_m = 6.0 + 4.0 * uniform(random);
-  motion.dt_s = kPeriodS;
+  motion.dt_s = kVelocityPeriodS;
   flight.v_WB_B = 2.0 * Eigen::Vector3d{uniform(random), uniform(random), 0.3 * uniform(random)};
 
   const Eigen::Isometry3d X_BC = down_camera();
@@ -48,8 +48,8 @@ Flight random_flight(std::mt19937_64& random) {
   const Eigen::Vector3d down_C = R_CB * (motion.q_WB.conjugate() * Eigen::Vector3d::UnitZ());
   const double height_m = motion.height_above_ground_m - (motion.q_WB * X_BC.translation()).z();
   const Eigen::Vector3d v_WC_B = flight.v_WB_B + motion.w_WB_B.cross(X_BC.translation());
-  flight.field = plane_flow(kCamera, grid_field(8, 8, 60, 400), height_m * down_C, down_C, R_CB * v_WC_B,
-                            R_CB * motion.w_WB_B, kPeriodS);
+  flight.field = plane_flow(kVelocityCamera, grid_field(8, 8, 60, 400), height_m * down_C, down_C, R_CB * v_WC_B,
+                            R_CB * motion.w_WB_B, kVelocityPeriodS);
   return flight;
 }
 
@@ -57,7 +57,7 @@ TEST(FlowVelocity, EqualsTheTrueVelocityOverLevelGround) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const Flight flight = random_flight(random);
-    const auto found = flow_velocity(flight.field, kCamera, down_camera(), flight.motion);
+    const auto found = flow_velocity(flight.field, kVelocityCamera, down_camera(), flight.motion);
     ASSERT_TRUE(found);
     // Motion within one period is modeled to first order, with an error of 1 % of the speed.
     EXPECT_LT((found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).norm(), 0.03);
@@ -75,7 +75,7 @@ TEST(FlowVelocity, IsRobustToThirtyPercentOfWrongVectors) {
       vector.flow_px += Eigen::Vector2d{noise(random), noise(random)};
       if (uniform(random) < -0.4) vector.flow_px += 8.0 * Eigen::Vector2d{uniform(random), uniform(random)};
     }
-    const auto found = flow_velocity(flight.field, kCamera, down_camera(), flight.motion);
+    const auto found = flow_velocity(flight.field, kVelocityCamera, down_camera(), flight.motion);
     ASSERT_TRUE(found);
     EXPECT_LT((found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).norm(), 0.15);
   }
@@ -89,7 +89,7 @@ TEST(FlowVelocity, IsRobustToARoofInThirtyPercentOfTheView) {
     for (int row = 0; row < 8; ++row) {
       for (int col = 6; col < 8; ++col) flight.field.at(row, col).flow_px *= 1.0 / 0.6;
     }
-    const auto found = flow_velocity(flight.field, kCamera, down_camera(), flight.motion);
+    const auto found = flow_velocity(flight.field, kVelocityCamera, down_camera(), flight.motion);
     ASSERT_TRUE(found);
     EXPECT_LT((found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).norm(), 0.2);
   }
@@ -105,7 +105,7 @@ TEST(FlowVelocity, StatesItsOwnError) {
   for (int trial = 0; trial < kTrials; ++trial) {
     Flight flight = random_flight(random);
     for (FlowVector& vector : flight.field.vectors) vector.flow_px += Eigen::Vector2d{noise(random), noise(random)};
-    const auto found = flow_velocity(flight.field, kCamera, down_camera(), flight.motion, config);
+    const auto found = flow_velocity(flight.field, kVelocityCamera, down_camera(), flight.motion, config);
     ASSERT_TRUE(found);
     squares += (found->v_WB_B_xy_meas - flight.v_WB_B.head<2>()).squaredNorm() / (found->sigma_mps * found->sigma_mps);
   }
@@ -120,7 +120,7 @@ TEST(FlowVelocity, IsUnknownWithTooFewVectors) {
   const auto found = [&](auto change) {
     Flight changed = flight;
     change(changed);
-    return flow_velocity(changed.field, kCamera, down_camera(), changed.motion).has_value();
+    return flow_velocity(changed.field, kVelocityCamera, down_camera(), changed.motion).has_value();
   };
   EXPECT_TRUE(found([](Flight&) {}));
   EXPECT_FALSE(found([](Flight& f) {

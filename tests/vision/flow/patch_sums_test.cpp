@@ -9,7 +9,7 @@
 namespace hedgehop::vision::flow {
 namespace {
 
-std::vector<int16_t> random_image(int count, int largest, std::mt19937_64& random) {
+std::vector<int16_t> random_pixels(int count, int largest, std::mt19937_64& random) {
   std::uniform_int_distribution<int> number(-largest, largest);
   std::vector<int16_t> image;
   for (int i = 0; i < count; ++i) image.push_back(static_cast<int16_t>(number(random)));
@@ -20,7 +20,7 @@ TEST(PatchSums, EqualSumsPixelByPixelForRandomPatches) {
   std::mt19937_64 random(11);
   for (int trial = 0; trial < 40; ++trial) {
     const int width = 8 * static_cast<int>(2 + random() % 8), height = static_cast<int>(10 + random() % 60);
-    const auto a = random_image(width * height, 4080, random), b = random_image(width * height, 4080, random);
+    const auto a = random_pixels(width * height, 4080, random), b = random_pixels(width * height, 4080, random);
     std::vector<PatchRange> rows, cols;
     for (size_t i = 0; i < 1 + random() % 6; ++i) {
       const int begin = static_cast<int>(random() % static_cast<uint64_t>(height - 4));

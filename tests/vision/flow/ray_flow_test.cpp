@@ -17,19 +17,19 @@ using std::numbers::pi;
 
 constexpr double kRoundOff = 1e-9;
 
-Vector3d random_vector(std::mt19937_64& random, double size) {
+Vector3d random_ray_vector(std::mt19937_64& random, double size) {
   return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
 }
 
 Eigen::Matrix3d random_rotation(std::mt19937_64& random, double largest_rad) {
-  return Eigen::AngleAxisd(uniform(random, 0.0, largest_rad), random_vector(random, 1.0).normalized())
+  return Eigen::AngleAxisd(uniform(random, 0.0, largest_rad), random_ray_vector(random, 1.0).normalized())
       .toRotationMatrix();
 }
 
 TEST(RayFlow, PureRotationLeavesNoFlow) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const Vector3d p_C1 = random_vector(random, 5.0);
+    const Vector3d p_C1 = random_ray_vector(random, 5.0);
     const Eigen::Matrix3d R_C1C2 = random_rotation(random, 0.5);
     const Vector3d before = p_C1.normalized(), after = (R_C1C2.transpose() * p_C1).normalized();
     EXPECT_LT(flow_angle_rad(before, derotate_ray(after, R_C1C2)), 1e-14);
@@ -39,7 +39,7 @@ TEST(RayFlow, PureRotationLeavesNoFlow) {
 TEST(RayFlow, MixedMotionGivesTheDistanceOfEveryPoint) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 500; ++trial) {
-    const Vector3d p_C1P = random_vector(random, 5.0), traveled = random_vector(random, 0.3);
+    const Vector3d p_C1P = random_ray_vector(random, 5.0), traveled = random_ray_vector(random, 0.3);
     const Eigen::Matrix3d R_C1C2 = random_rotation(random, 0.5);
     const Vector3d p_C2P_C1 = p_C1P - traveled;
     const Vector3d before = p_C1P.normalized(), after = (R_C1C2.transpose() * p_C2P_C1).normalized();

@@ -19,7 +19,7 @@ struct Flow {
   std::vector<int32_t> u_q16, v_q16;
 };
 
-ReducedImage random_image(int width, int height, uint64_t seed) {
+ReducedImage random_reduced_image(int width, int height, uint64_t seed) {
   std::mt19937_64 random(seed);
   ReducedImage image(width, height, kRim);
   for (int y = 0; y < height; ++y) {
@@ -81,7 +81,7 @@ void expect_exact(const ReducedImage& older, const ReducedImage& newer, bool smo
 
 TEST(RecenteredDifferenceExact, EqualsAPixelByPixelComputationForRandomImages) {
   for (const int width : {45, 400, 1100}) {
-    const ReducedImage older = random_image(width, 60, 1), newer = random_image(width, 60, 2);
+    const ReducedImage older = random_reduced_image(width, 60, 1), newer = random_reduced_image(width, 60, 2);
     for (const bool smooth : {false, true}) expect_exact(older, newer, smooth, static_cast<uint64_t>(width));
   }
 }

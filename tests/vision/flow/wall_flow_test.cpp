@@ -63,7 +63,7 @@ std::vector<WallFlowSample> look(const Room& room, const Eigen::Vector2d& v_H, d
   return observations;
 }
 
-Eigen::Vector2d random_velocity(std::mt19937_64& random) {
+Eigen::Vector2d random_horizontal_velocity(std::mt19937_64& random) {
   std::uniform_real_distribution<double> angle(-M_PI, M_PI), speed(0.7, 1.5);
   return speed(random) * (Eigen::Rotation2Dd(angle(random)) * Eigen::Vector2d::UnitX());
 }
@@ -80,7 +80,7 @@ TEST(WallFlow, FindsTheWallsOfARoomFromAMovingVehicle) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 100; ++trial) {
     const Room room = random_room(random);
-    const auto observations = look(room, random_velocity(random), 0.0, random);
+    const auto observations = look(room, random_horizontal_velocity(random), 0.0, random);
     const auto walls = walls_from_flow(observations, 0.1);
     for (size_t k = 0; k < 4; ++k) {
       // A wall in fewer than three adjacent patches cannot be detected.
@@ -105,7 +105,7 @@ TEST(WallFlow, RangeOfTheNearestWallIsWithinItsStatedError) {
   double squares = 0.0;
   for (int trial = 0; trial < 300; ++trial) {
     const Room room = random_room(random);
-    const auto walls = walls_from_flow(look(room, random_velocity(random), kNoise, random), 0.3);
+    const auto walls = walls_from_flow(look(room, random_horizontal_velocity(random), kNoise, random), 0.3);
     const size_t k = static_cast<size_t>(std::ranges::min_element(room.d_m) - room.d_m.begin());
     if (room.d_m[k] > 2.0) continue;
     ++all;

@@ -19,7 +19,7 @@ struct Sight {
   std::vector<Vector2d> bearings_meas;
 };
 
-constexpr double kBearingSigma = 5e-4;
+constexpr double kCameraBearingSigma = 5e-4;
 
 Sight random_sight(std::mt19937_64& random, size_t points, double clutter) {
   std::normal_distribution<double> normal;
@@ -33,11 +33,12 @@ Sight random_sight(std::mt19937_64& random, size_t points, double clutter) {
     Landmark landmark;
     landmark.x = {uniform(random, -12, 12), uniform(random, -12, 12), uniform(random, -15, 0)};
     landmark.P = 1e-4 * Eigen::Matrix3d::Identity();
-    sight.predicted.push_back(predict_bearing(landmark, sight.pose, kBearingSigma));
+    sight.predicted.push_back(predict_bearing(landmark, sight.pose, kCameraBearingSigma));
     const bool hidden = uniform(random, 0, 1) < 0.2;
     if (hidden) continue;
     const Vector2d noise(normal(random), normal(random));
-    sight.bearings_meas.push_back(predict_bearing(landmark, where, kBearingSigma)->bearing + kBearingSigma * noise);
+    sight.bearings_meas.push_back(predict_bearing(landmark, where, kCameraBearingSigma)->bearing +
+                                  kCameraBearingSigma * noise);
   }
   for (double k = 0; k < clutter * static_cast<double>(points); ++k) {
     sight.bearings_meas.emplace_back(uniform(random, -0.25, 0.25), uniform(random, -0.25, 0.25));
@@ -61,8 +62,8 @@ TEST(CameraError, IsFoundDespiteHiddenPointsAndClutter) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const Sight sight = random_sight(random, 30, 0.5);
     const CameraError error =
-        common_error(sight.predicted, sight.bearings_meas, error_covariance(sight.pose), kBearingSigma);
-    found += worst_residual(sight, error) < 5.0 * kBearingSigma;
+        common_error(sight.predicted, sight.bearings_meas, error_covariance(sight.pose), kCameraBearingSigma);
+    found += worst_residual(sight, error) < 5.0 * kCameraBearingSigma;
   }
   EXPECT_GE(found, kTrials * 97 / 100);  // clutter close to a hidden point occasionally causes an error
 }
@@ -84,8 +85,8 @@ TEST(CameraError, IsZeroWithoutLandmarksOrMeasurements) {
   std::mt19937_64 random(33);
   const Sight sight = random_sight(random, 10, 0.0);
   const auto prior = error_covariance(sight.pose);
-  EXPECT_TRUE(common_error({}, sight.bearings_meas, prior, kBearingSigma).isZero());
-  EXPECT_TRUE(common_error(sight.predicted, {}, prior, kBearingSigma).isZero());
+  EXPECT_TRUE(common_error({}, sight.bearings_meas, prior, kCameraBearingSigma).isZero());
+  EXPECT_TRUE(common_error(sight.predicted, {}, prior, kCameraBearingSigma).isZero());
 }
 
 TEST(CameraError, KnownPoseKeepsOnlyLandmarkAndMeasurementCovariance) {
@@ -93,8 +94,8 @@ TEST(CameraError, KnownPoseKeepsOnlyLandmarkAndMeasurementCovariance) {
   const Sight sight = random_sight(random, 10, 0.0);
   for (const auto& seen : sight.predicted) {
     const Eigen::Matrix2d expected = 1e-4 * seen->d_bearing_x * seen->d_bearing_x.transpose() +
-                                     kBearingSigma * kBearingSigma * Eigen::Matrix2d::Identity();
-    EXPECT_LT((with_known_pose(*seen, kBearingSigma).covariance - expected).norm(), 1e-15);
+                                     kCameraBearingSigma * kCameraBearingSigma * Eigen::Matrix2d::Identity();
+    EXPECT_LT((with_known_pose(*seen, kCameraBearingSigma).covariance - expected).norm(), 1e-15);
   }
 }
 

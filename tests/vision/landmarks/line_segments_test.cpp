@@ -13,15 +13,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSizePx = 200;
+constexpr int kSegmentImagePx = 200;
 
 /// A half-plane, bright to the right of a line through `at`. Pixels on the line are blended by area to first order;
 /// with white noise.
 cv::Mat half_plane(const Vector2d& at, double angle_rad, double contrast, double noise, cv::RNG& random) {
   const Vector2d right(-std::sin(angle_rad), std::cos(angle_rad));  // in the image, whose v points down
-  cv::Mat image(kSizePx, kSizePx, CV_8UC1);
-  for (int v = 0; v < kSizePx; ++v) {
-    for (int u = 0; u < kSizePx; ++u) {
+  cv::Mat image(kSegmentImagePx, kSegmentImagePx, CV_8UC1);
+  for (int v = 0; v < kSegmentImagePx; ++v) {
+    for (int u = 0; u < kSegmentImagePx; ++u) {
       const double share = std::clamp(0.5 + right.dot(Vector2d(u, v) - at), 0.0, 1.0);
       image.at<uchar>(v, u) = cv::saturate_cast<uchar>(90.0 + contrast * share + random.gaussian(noise));
     }
