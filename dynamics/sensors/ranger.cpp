@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
@@ -15,7 +16,11 @@ Ranger::Ranger(const std::string& key, const RangerConfig& config, double physic
     : config_(fields::require_bounds(config, key)),
       period_(period_ticks(key + ".rate", config.rate_hz, physics_dt_s)),
       noise_(seed) {
-  if (!(config.max_m > config.min_m)) throw fields::InvalidField(key + ".max", "must be greater than 'min'");
+  if (!(config.max_m > config.min_m)) {
+    std::ostringstream message;
+    message << "must be greater than 'min' (" << config.min_m << " m), got " << config.max_m;
+    throw fields::InvalidField(key + ".max", message.str());
+  }
   latency_ = std::llround(config.latency_s / physics_dt_s);
   observed_m_.assign(static_cast<size_t>(latency_ / period_) + 1, std::numeric_limits<double>::infinity());
   if (config.offset_m > 0.0) offset_m_ = config.offset_m * noise_.normal();

@@ -65,17 +65,8 @@ inline cv::Mat draw_planes_through(const camera::Camera& camera, const Eigen::Is
   const auto seen = [&](const Eigen::Vector2d& pixel) {
     const auto ray_C = camera.unit_ray(pixel);
     if (!ray_C) return 0.0;
-    const Eigen::Vector3d ray_W = X_WC.linear() * *ray_C;
-    double nearest = std::numeric_limits<double>::infinity(), grey = 0.0;
-    for (const TexturedPlane& plane : planes) {
-      const Eigen::Vector3d normal_W = plane.s_W.cross(plane.t_W);
-      const double range = normal_W.dot(plane.p_WO - X_WC.translation()) / normal_W.dot(ray_W);
-      if (!(range > 1e-6 && range < nearest)) continue;
-      nearest = range;
-      const Eigen::Vector3d p = X_WC.translation() + range * ray_W - plane.p_WO;
-      grey = texture.grey(plane.s_W.dot(p), plane.t_W.dot(p));
-    }
-    return grey;
+    const auto point = seen_point(X_WC.translation(), X_WC.linear() * *ray_C, planes);
+    return point ? texture.grey(point->x(), point->y()) : 0.0;
   };
   return draw_image(camera.width_px, camera.height_px, [&](double u, double v) {
     double sum = 0.0;
