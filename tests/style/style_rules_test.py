@@ -137,6 +137,16 @@ class Citations(Tree):
         self.assertEqual(self.faults("citations", {"vision/flow.cpp": "int a = b[kCount2] + c[2009];\n"}), [])
 
 
+class Includes(Tree):
+    def test_a_name_without_its_header(self):
+        self.assert_refused("includes", {"vision/flow.h": "#include <vector>\nstd::vector<std::string> names();\n"},
+                            "vision/flow.h:2: std::string needs #include <string>")
+
+    def test_a_header_of_the_project_may_include_it(self):
+        self.assertEqual(self.faults("includes", {"vision/names.h": "#include <string>\n",
+                                                  "vision/flow.h": '#include "vision/names.h"\nstd::string name();\n'}), [])
+
+
 class Constants(Tree):
     def test_a_unit_behind_an_underscore(self):
         for name in ("kGravity_mps2", "kRange_m", "kMax_Range"):

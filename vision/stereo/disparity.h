@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace hedgehop::vision::stereo {

@@ -20,7 +20,7 @@ Scenario short_flight(const std::string& name, std::string text, std::vector<std
     text.replace(at, 1, configs);
   const auto file = std::filesystem::path(testing::TempDir()) / (name + ".yaml");
   std::ofstream(file) << text;
-  overrides.insert(overrides.begin(), {"scene.texture_size=128"});
+  overrides.insert(overrides.begin(), {"scene.texture_size=128", "drawing.renderer=tiles"});
   return load_scenario(file, overrides);
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 /// The light city scenario, cut to a few seconds so that the suite stays quick.
 Scenario short_city(std::vector<std::string> overrides = {}) {
-  overrides.insert(overrides.begin(), {"duration=4", "film.enabled=false", "checks=[]"});
+  overrides.insert(overrides.begin(), {"duration=4", "film.enabled=false", "checks=[]", "drawing.renderer=tiles",
+                                       "scene.texture_size=128"});
   return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_city_0_light.yaml", overrides);
 }
 
@@ -124,11 +125,11 @@ TEST(Simulation, StartSpreadMovesTheStartBySeedWithinItsDisc) {
 
 TEST(Simulation, FlyingIntoAWallEndsWithACollisionThatNamesIt) {
   // Straight at the room's northern wall, 8 m away.
-  const Scenario scenario =
-      load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_room_0.yaml",
-                    std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
-                                             "start={north: 0, east: 0, altitude: 1}", "film.enabled=false",
-                                             "checks=[]", "duration=30"});
+  const Scenario scenario = load_scenario(
+      std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_room_0.yaml",
+      std::vector<std::string>{"avoidance={module: go_to_goal}", "goal={north: 30, east: 0, altitude: 1}",
+                               "start={north: 0, east: 0, altitude: 1}", "film.enabled=false", "checks=[]",
+                               "duration=30", "scene.texture_size=64", "drawing.renderer=tiles"});
   const Flight flight = Simulation(scenario).run();
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_NE(flight.result.cause.find("wall"), std::string::npos) << flight.result.cause;
@@ -155,7 +156,7 @@ TEST(SimulationImage, AnUnknownCameraIsRefusedWithTheRigsRoles) {
 
 TEST(SimulationImage, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
   try {
-    Simulation(short_city({"rig.cameras.1.samples=8"})).image("front", ImageChannel::grey);
+    Simulation(short_city({"rig.cameras.1.samples=8", "drawing.renderer=osmesa"})).image("front", ImageChannel::grey);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),

@@ -42,7 +42,8 @@ std::vector<ModuleFlight> module_flights() {
 
 Scenario scenario_of(const ModuleFlight& flight) {
   std::vector<std::string> overrides = flight.overrides;
-  overrides.insert(overrides.end(), {"duration=" + std::to_string(kDurationS), "film.enabled=false", "checks=[]"});
+  overrides.insert(overrides.end(), {"duration=" + std::to_string(kDurationS), "film.enabled=false", "checks=[]",
+                                     "drawing.renderer=tiles", "scene.texture_size=128"});
   return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/" + flight.file, overrides);
 }
 

@@ -20,7 +20,7 @@ namespace {
 constexpr uint64_t kSeeds = 200;
 
 Scenario configured(const std::string& name, std::vector<std::string> overrides = {}) {
-  overrides.insert(overrides.begin(), {"scene.texture_size=64"});
+  overrides.insert(overrides.begin(), {"scene.texture_size=64", "drawing.renderer=tiles"});
   return load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/" + name + ".yaml", overrides);
 }
 

@@ -12,7 +12,7 @@ TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
   int worlds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/worlds")) {
     ++worlds;
-    const std::vector<std::string> overrides = {"duration=1", "scene.texture_size=64"};
+    const std::vector<std::string> overrides = {"duration=1", "scene.texture_size=64", "drawing.renderer=tiles"};
     const Scenario scenario = load_scenario(entry.path(), overrides);
     cv::Scalar mean, deviation;
     cv::meanStdDev(Simulation(scenario).image("front", ImageChannel::grey), mean, deviation);
@@ -24,7 +24,7 @@ TEST(ExampleWorlds, AreSeenAndFlownInForASecondUnharmed) {
 }
 
 TEST(ExampleWorlds, TheTreeOnTheWayIsHit) {
-  const std::vector<std::string> overrides = {"scene.texture_size=64", "avoidance.speed=5"};
+  const std::vector<std::string> overrides = {"scene.texture_size=64", "drawing.renderer=tiles", "avoidance.speed=5"};
   const Flight flight = Simulation(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides)).run();
   EXPECT_EQ(flight.result.outcome, Outcome::collided);
   EXPECT_EQ(flight.result.closest_obstacle.what, "tree");
@@ -32,7 +32,7 @@ TEST(ExampleWorlds, TheTreeOnTheWayIsHit) {
 }
 
 TEST(ExampleWorlds, TellHowCrampedTheyAreAtTheHeightOfTheStart) {
-  const std::vector<std::string> overrides = {"duration=0.1", "scene.texture_size=64"};
+  const std::vector<std::string> overrides = {"duration=0.1", "scene.texture_size=64", "drawing.renderer=tiles"};
   const Flight flight = Simulation(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/worlds/forest.yaml", overrides)).run();
   EXPECT_NEAR(flight.result.scene.density_pm2, 1.0 / 32.0, 1e-9);  // a tree to every 2 x (4 m)^2
   EXPECT_GT(flight.result.scene.median_gap_m, flight.result.scene.smallest_gap_m);
