@@ -51,7 +51,7 @@ class FlightsView {
       }
       onChoose(th, () => this.sortBy(column.name));
     }
-    head.append(make('th', '', 'again'));
+    head.append(make('th', '', 're-run'));
     const body = element.appendChild(make('tbody'));
     for (const row of sorted.slice(0, this.most)) body.append(this.line(row, columns));
     this.host.replaceChildren(element);
