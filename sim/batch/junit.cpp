@@ -119,7 +119,7 @@ Case flight_case(const FlightRecord& record, const std::string& because, const s
 }
 
 Suite flight_suite(const FlightRecord& record, bool binding) {
-  const std::string again = "again: " + rerun_command(record.order);
+  const std::string again = "re-run: " + rerun_command(record.order);
   const std::string cause = record.result ? record.result->flight.cause : "";
   const std::string because = cause.empty() ? "" : fmt::format(" ({})", cause);
   Suite suite{.name = record.order.id, .time_s = record.result ? record.result->flight.wall_s : 0.0};

@@ -57,7 +57,7 @@ TEST(Batch, WorkerThatCrashesOrIsKilledFailsItsOwnFlightOnly) {
   const std::string cases = junit_cases(folder, "j.xml");
   EXPECT_THAT(cases, HasSubstr("tiny/seed3/flight error exit status 3: the <last> words\n"));
   EXPECT_THAT(cases, ContainsRegex("tiny/seed6/no_collision\n  0.7[0-9]* m at [0-9.]+ s, must be > 0 m"));
-  EXPECT_THAT(cases, HasSubstr("again: hedgehop run tiny.yaml --seed 6"));
+  EXPECT_THAT(cases, HasSubstr("re-run: hedgehop run tiny.yaml --seed 6"));
   EXPECT_THAT(end.out, HasSubstr("FAIL  tiny/seed1: killed by SIGSEGV"));
 }
 

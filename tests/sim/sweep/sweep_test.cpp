@@ -79,7 +79,7 @@ TEST_F(Sweep, JunitHasACaseForEachFlightAndCheck) {
   EXPECT_THAT(cases, HasSubstr("flights/000001-seed2/flight error exit status 3: broken\n"));
   EXPECT_THAT(cases, ContainsRegex("flights/000005-seed1/no_collision\n  0.7[0-9]* m at [0-9.]+ s, must be > 0 m"));
   EXPECT_THAT(cases,
-              HasSubstr("again: hedgehop run tiny.yaml --seed 1 --set avoidance.speed=2 --set control_rate=100"));
+              HasSubstr("re-run: hedgehop run tiny.yaml --seed 1 --set avoidance.speed=2 --set control_rate=100"));
   const std::string script = folder.hedgehop("sweep sweep.yaml --out out --junit ci/j.xml --on slurm --dry-run").out;
   EXPECT_THAT(script, HasSubstr("--merge --junit " + (folder.path() / "ci/j.xml").string() + "\n"));
 }
