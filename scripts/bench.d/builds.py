@@ -1,5 +1,5 @@
 """CPU times of builds, wall times of the test suite, and the start of the program; not part of `scripts/bench` without a name,
-because it builds everything from nothing (about half an hour on two cores).
+because it builds everything from scratch (about half an hour on two cores).
 
 The floor of a build is the compilation of one empty source with the project's precompiled header, times the number of
 compilations. The floor of the program's start is /bin/true.
@@ -81,11 +81,11 @@ def run(root, quick):
     configure(root, folder, "release", "-DHEDGEHOP_TESTS=OFF")
     program_s = build(folder, "hedgehop")[0]
     empty_s = empty_source_s(folder)
-    row("build of hedgehop from nothing", program_s, "CPU s", compilations(folder) * empty_s)
+    row("build of hedgehop from scratch", program_s, "CPU s", compilations(folder) * empty_s)
     module_s = rebuilt(folder, root / "avoidance/module.h", "hedgehop")
     row("rebuild after a change of avoidance/module.h", module_s, "s")
     configure(root, folder, "release", "-DHEDGEHOP_TESTS=ON")
-    row("build of hedgehop and all tests from nothing", program_s + build(folder)[0], "CPU s", compilations(folder) * empty_s)
+    row("build of hedgehop and all tests from scratch", program_s + build(folder)[0], "CPU s", compilations(folder) * empty_s)
     debug = out / "debug"
     configure(root, debug, "debug", "-DHEDGEHOP_TESTS=OFF")
     build(debug, "hedgehop")
