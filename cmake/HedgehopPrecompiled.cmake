@@ -1,6 +1,6 @@
 # Precompiles the package headers that many sources include. Parsing them takes 70 % of a build without precompiled headers.
-# Every header still includes the headers of its names: `scripts/style includes` checks it, and `scripts/slow-checks headers` compiles each
-# header without these.
+# Every file still includes the headers of its names: `scripts/style includes` checks it, and `scripts/slow-checks headers`
+# compiles each header without these.
 include_guard()
 
 set(precompiled

@@ -1,5 +1,7 @@
 #include "scenes/textures/street_textures.h"
 
+#include <algorithm>
+
 #include "scenes/textures/canvas.h"
 #include "scenes/textures/surface_patterns.h"
 

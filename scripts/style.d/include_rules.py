@@ -1,9 +1,9 @@
-"""A header includes the headers of all its names, so that it compiles alone, without the precompiled headers."""
+"""A file includes the headers of all its names, so that it compiles alone, without the precompiled headers."""
 
 import functools
 import re
 
-from tree import Fault, files, line_of, read
+from tree import CODE, Fault, files, line_of, read
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 CONTAINERS = ("array", "deque", "list", "map", "set", "span", "string", "vector")
@@ -38,7 +38,7 @@ NAMES = [(re.compile(pattern), headers) for pattern, headers in (
 
 
 def check_includes(root):
-    """A header, with the headers of the project that it includes, includes the headers of the names that it uses."""
+    """A file, with the headers of the project that it includes, includes the headers of its names."""
     @functools.cache
     def included(path):
         """The package headers that `path` includes itself or through headers of the project."""
@@ -50,7 +50,7 @@ def check_includes(root):
         return frozenset(found)
 
     faults = []
-    for path in files(root, {".h"}):
+    for path in files(root, CODE):
         if path.parts[0] in ("tests", "scripts", "docs"):
             continue
         text = read(root, path)

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <string>
 #include <vector>
 
 namespace hedgehop::sim {

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "sim/config/input_error.h"

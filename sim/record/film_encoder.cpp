@@ -1,6 +1,7 @@
 #include "sim/record/film_encoder.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 

@@ -4,6 +4,7 @@
 #include <turbojpeg.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 

@@ -1,6 +1,7 @@
 #include "vision/camera/image_derotator.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>

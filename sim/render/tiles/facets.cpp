@@ -1,6 +1,7 @@
 #include "sim/render/tiles/facets.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
