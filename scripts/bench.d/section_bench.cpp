@@ -37,7 +37,7 @@ void SectionSelection(benchmark::State& state) {
   sections::SectionSearch search(grid, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::UnknownDepth::free));
   }
 }
 BENCHMARK(SectionSelection)->DenseRange(3, 27, 2)->Unit(benchmark::kMillisecond);
@@ -47,7 +47,7 @@ void SectionSelectionWidened(benchmark::State& state) {
   sections::SectionSearch search({.grow_px = 8}, kZed);
   const cv::Mat depth_m = random_depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::Unknown::free));
+    benchmark::DoNotOptimize(search.choose(depth_m, kThresholdM, kMostShare, sections::UnknownDepth::free));
   }
 }
 BENCHMARK(SectionSelectionWidened)->Unit(benchmark::kMillisecond);
