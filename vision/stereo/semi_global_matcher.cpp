@@ -7,24 +7,15 @@
 #include <utility>
 
 #include "vision/flow/wide_integers.h"
-#include "vision/stereo/disparity.h"
+#include "vision/stereo/row_slopes.h"
 
 namespace hedgehop::vision::stereo {
 
 namespace {
 
-constexpr int kMaxSlope = 31;        // slopes are limited to +-31 and stored as slope + 31
 constexpr int kBrightnessShift = 2;  // weight of brightness relative to slope: 1/4
 
 uint8_t excess(uint8_t a, uint8_t b) { return static_cast<uint8_t>(std::max(a, b) - b); }
-
-HEDGEHOP_WIDE void slopes(const uint8_t* above, const uint8_t* here, const uint8_t* below, int width, uint8_t* to) {
-  for (int x = 1; x < width - 1; ++x) {
-    const auto slope = static_cast<int16_t>((here[x + 1] - here[x - 1]) * 2 + above[x + 1] - above[x - 1] +
-                                            below[x + 1] - below[x - 1]);
-    to[x] = static_cast<uint8_t>(std::clamp<int16_t>(slope, -kMaxSlope, kMaxSlope) + kMaxSlope);
-  }
-}
 
 HEDGEHOP_WIDE void find_line_extrema(const uint8_t* at, int width, uint8_t* low, uint8_t* high) {
   for (int x = 1; x < width - 1; ++x) {
@@ -104,8 +95,8 @@ void PixelCosts::PixelLine::find_extrema() {
 void PixelCosts::read(const cv::Mat& image, int y, PixelLines& lines) {
   auto& [slope, brightness] = lines;
   const auto* const here = image.ptr<uint8_t>(y);
-  slopes(image.ptr<uint8_t>(std::max(y - 1, 0)), here, image.ptr<uint8_t>(std::min(y + 1, image.rows - 1)), image.cols,
-         slope.at.data());
+  row_slopes(image.ptr<uint8_t>(std::max(y - 1, 0)), here, image.ptr<uint8_t>(std::min(y + 1, image.rows - 1)),
+             image.cols, slope.at.data());
   std::copy_n(here, image.cols, brightness.at.begin());
   // As in OpenCV's semi-global matcher, the outermost pixels have zero slope and a fixed brightness.
   for (PixelLine& line : lines) {
@@ -134,24 +125,33 @@ constexpr int kMaxArea = SemiGlobalMatcher::kMaxBlockPx * SemiGlobalMatcher::kMa
 static_assert((PixelCosts::kMaxCost + 2 * kLeapCost) * kMaxArea <= INT16_MAX);
 static_assert(PathCosts::kFar + kStepCost * kMaxArea <= INT16_MAX);
 static_assert(PathCosts::kFar >= (PixelCosts::kMaxCost + kLeapCost) * kMaxArea);
-constexpr int kUnitsPerPixel = static_cast<int>(kDisparityUnits);
-constexpr int16_t kUnmatched = -kUnitsPerPixel;
+constexpr int kIndexBits = 16;  // of a match: below its cost, the index of its disparity
 
 HEDGEHOP_WIDE void add_times(const uint8_t* costs, int times, size_t count, int16_t* sums) {
   for (size_t i = 0; i < count; ++i) sums[i] = static_cast<int16_t>(sums[i] + times * costs[i]);
 }
 
-HEDGEHOP_WIDE void replace(const uint8_t* enters, const uint8_t* leaves, size_t count, int16_t* sums) {
-  for (size_t i = 0; i < count; ++i) sums[i] = static_cast<int16_t>(sums[i] + enters[i] - leaves[i]);
+/// @param matches  cost of each pixel and index of its disparity. Of equal costs, the largest disparity has the
+/// minimum.
+HEDGEHOP_WIDE void find_whole_disparities(const WinnerRow& winners, int width, int disparities, int16_t* disparity16,
+                                          int* matches) {
+  const int16_t *const at = winners.at(), *const unique = winners.unique(), *const costs = winners.costs();
+  for (int x = 0; x < width; ++x) {
+    const auto whole = static_cast<int16_t>((disparities - 1 - at[x]) * kUnitsPerPixel);
+    disparity16[x] = unique[x] != 0 ? whole : kUnmatched;
+    matches[x] = unique[x] != 0 ? (costs[x] << kIndexBits) + at[x] : INT32_MAX;
+  }
 }
 
-/// Computes the block around the column before the first one, whose pixels are repeated; `half` columns are right of
-/// it.
-HEDGEHOP_WIDE void sum_first_square(const int16_t* columns, int width, int disparities, int half, int16_t* square) {
-  for (int d = 0; d < disparities; ++d) square[d] = static_cast<int16_t>((half + 1) * columns[d]);
-  for (int x = 0; x < half; ++x) {
-    const int16_t* column = columns + std::min(x, width - 1) * static_cast<ptrdiff_t>(disparities);
-    for (int d = 0; d < disparities; ++d) square[d] = static_cast<int16_t>(square[d] + column[d]);
+/// Computes the fractions of the disparities x 16, to be truncated; 1/2 at the ends and without a match.
+HEDGEHOP_WIDE void find_parts(const WinnerRow& winners, int width, int disparities, int* dividends, int* divisors) {
+  const int16_t *const at = winners.at(), *const unique = winners.unique(), *const costs = winners.costs(),
+                       *const before = winners.costs_before(), *const after = winners.costs_after();
+  for (int x = 0; x < width; ++x) {
+    const int inside = unique[x] & (at[x] > 0) & (at[x] < disparities - 1);
+    const int curvature = std::max(after[x] + before[x] - 2 * costs[x], 1);
+    dividends[x] = (after[x] - before[x]) * inside * kUnitsPerPixel + curvature;
+    divisors[x] = 2 * curvature;
   }
 }
 
@@ -163,42 +163,24 @@ SemiGlobalMatcher::SemiGlobalMatcher(const SemiGlobalConfig& config, cv::Size si
       height_(size.height),
       pixel_costs_(size.width, config.disparities_px),
       columns_(static_cast<size_t>(std::max(width_, 0)) * static_cast<size_t>(config.disparities_px)),
-      first_square_(static_cast<size_t>(config.disparities_px)),
-      squares_(columns_),
-      sums_(columns_),
-      from_left_(2, config.disparities_px),
-      from_right_(from_left_),
-      from_above_(width_ + 1, config.disparities_px),
-      from_above_before_(from_above_),
-      from_above_left_(from_above_),
-      from_above_right_(from_above_),
-      winners_(static_cast<size_t>(width_)),
-      right_costs_(static_cast<size_t>(size.width)),
-      right_disparities_(right_costs_) {
+      paths_({.width = width_,
+              .disparities = config.disparities_px,
+              .half = config.block_px / 2,
+              .step_cost = static_cast<int16_t>(kStepCost * config.block_px * config.block_px),
+              .leap_cost = static_cast<int16_t>(kLeapCost * config.block_px * config.block_px),
+              .uniqueness_percent = config.uniqueness_percent,
+              .max_lanes = config.max_lanes}),
+      right_matches_(static_cast<size_t>(size.width) + 1),  // one more for the disparity -1 of unmatched pixels
+      matches_(static_cast<size_t>(width_)),
+      dividends_(matches_),
+      divisors_(matches_) {
   pixels_.resize(columns_.size() * static_cast<size_t>(config.block_px + 1));
 }
 
 void SemiGlobalMatcher::compute(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity16) {
   found_.create(left.size(), CV_16SC1);
-  for (PathCosts* path : {&from_above_, &from_above_before_, &from_above_left_, &from_above_right_}) path->clear();
-  const int area = config_.block_px * config_.block_px;
-  const PathRow row{.width = width_,
-                    .disparities = config_.disparities_px,
-                    .half = config_.block_px / 2,
-                    .step_cost = static_cast<int16_t>(kStepCost * area),
-                    .leap_cost = static_cast<int16_t>(kLeapCost * area),
-                    .narrow = config_.narrow,
-                    .columns = columns_.data(),
-                    .square_before = first_square_.data(),
-                    .squares = squares_.data(),
-                    .sums = sums_.data()};
   for (int y = 0; y < height_; ++y) {
     add_row(left, right, y);
-    sum_first_square(columns_.data(), width_, row.disparities, row.half, first_square_.data());
-    for (PathCosts* path : {&from_left_, &from_right_}) path->clear();
-    std::swap(from_above_, from_above_before_);
-    walk_right(row, from_left_, from_above_before_, from_above_, from_above_right_);
-    walk_left(row, from_right_, from_above_left_, config_.uniqueness_percent, winners_.data());
     auto* const d = found_.ptr<int16_t>(y);
     choose_disparities(d);
     check_right_consistency(d);
@@ -206,62 +188,62 @@ void SemiGlobalMatcher::compute(const cv::Mat& left, const cv::Mat& right, cv::M
   cv::medianBlur(found_, disparity16, 3);
 }
 
-/// Updates the sums of columns to a block's rows around row y. The first and last rows are repeated.
+/// Adds row y and the rows of the blocks around it. The first and last rows are repeated.
 void SemiGlobalMatcher::add_row(const cv::Mat& left, const cv::Mat& right, int y) {
   const int half = config_.block_px / 2;
-  const size_t count = columns_.size();
   const auto pixels = [&](int row) {
-    return pixels_.data() + static_cast<size_t>(row % (config_.block_px + 1)) * count;
+    return pixels_.data() + static_cast<size_t>(row % (config_.block_px + 1)) * columns_.size();
   };
   if (y == 0) {
     std::fill(columns_.begin(), columns_.end(), int16_t{0});
     for (int row = 0; row <= std::min(half, height_ - 1); ++row) {
       pixel_costs_.row(left, right, row, pixels(row));
       const int above = row == 0 ? half : 0, below = row == height_ - 1 ? half - row : 0;
-      add_times(pixels(row), 1 + above + below, count, columns_.data());
+      add_times(pixels(row), 1 + above + below, columns_.size(), columns_.data());
     }
-  } else {
-    if (y + half < height_) pixel_costs_.row(left, right, y + half, pixels(y + half));
-    replace(pixels(std::min(y + half, height_ - 1)), pixels(std::max(y - half - 1, 0)), count, columns_.data());
+    paths_.begin(columns_);
+    return paths_.add_row(pixels(0), pixels(0));
   }
+  if (y + half < height_) pixel_costs_.row(left, right, y + half, pixels(y + half));
+  paths_.add_row(pixels(std::min(y + half, height_ - 1)), pixels(std::max(y - half - 1, 0)));
 }
 
-/// Computes the best disparity of each pixel in a row, in 1/16 px: the minimum of a parabola through three costs.
+/// Computes the best disparity of each pixel in a row, in 1/16 px: the minimum of a parabola through three costs. Also
+/// matches the pixels of the right image.
 void SemiGlobalMatcher::choose_disparities(int16_t* disparity16) {
   const int disparities = config_.disparities_px;
-  std::fill_n(disparity16, width_ + disparities, kUnmatched);
-  std::fill(right_costs_.begin(), right_costs_.end(), INT16_MAX);
-  std::fill(right_disparities_.begin(), right_disparities_.end(), kUnmatched);
-  for (int x = width_ - 1; x >= 0; --x) {
-    const Winner& winner = winners_[static_cast<size_t>(x)];
-    if (!winner.unique) continue;
-    int disparity = disparities - 1 - winner.at;
-    const auto seen_right = static_cast<size_t>(x + disparities - disparity);
-    if (right_costs_[seen_right] > winner.cost) {
-      right_costs_[seen_right] = winner.cost;
-      right_disparities_[seen_right] = static_cast<int16_t>(disparity);
-    }
-    disparity *= kUnitsPerPixel;
-    if (winner.at > 0 && winner.at < disparities - 1) {
-      const int16_t* sum = sums_.data() + static_cast<ptrdiff_t>(x) * disparities + winner.at;
-      const int less = sum[1], more = sum[-1], curvature = std::max(less + more - 2 * sum[0], 1);
-      disparity += ((less - more) * kUnitsPerPixel + curvature) / (2 * curvature);
-    }
-    disparity16[x + disparities] = static_cast<int16_t>(disparity);
+  const WinnerRow& winners = paths_.winners();
+  std::fill_n(disparity16, disparities, kUnmatched);
+  find_whole_disparities(winners, width_, disparities, disparity16 + disparities, matches_.data());
+  find_parts(winners, width_, disparities, dividends_.data(), divisors_.data());
+  for (int x = 0; x < width_; ++x) {
+    // Truncated floats have the value of the integer division, because both operands have at most 21 bits.
+    const auto i = static_cast<size_t>(x);
+    const auto part = static_cast<int>(static_cast<float>(dividends_[i]) / static_cast<float>(divisors_[i]));
+    disparity16[x + disparities] = static_cast<int16_t>(disparity16[x + disparities] + part);
   }
+  std::fill(right_matches_.begin(), right_matches_.end(), INT32_MAX);
+  int* const right = right_matches_.data() + 1;
+  for (int x = 0; x < width_; ++x) {
+    int& match = right[x + winners.at()[x]];
+    match = std::min(match, matches_[static_cast<size_t>(x)]);
+  }
+  for (int& match : right_matches_) match = disparities - 1 - match % (1 << kIndexBits);
 }
 
 /// Removes disparities that contradict the match of the corresponding right pixel, at both adjacent integer
 /// disparities.
 void SemiGlobalMatcher::check_right_consistency(int16_t* disparity16) const {
-  const auto agrees = [&](int x, int disparity) {
-    const int other = right_disparities_[static_cast<size_t>(x - disparity)];
-    return other < 0 || std::abs(other - disparity) <= config_.left_right_px;
+  const int* const matches = right_matches_.data();
+  const int tolerance = config_.left_right_px;
+  const auto contradicts = [&](int x, int disparity) {
+    const int other = matches[x - disparity];
+    return (other >= 0) & (std::abs(other - disparity) > tolerance);
   };
   for (int x = config_.disparities_px; x < width_ + config_.disparities_px; ++x) {
-    if (disparity16[x] < 0) continue;
-    const int below = disparity16[x] / kUnitsPerPixel, above = (disparity16[x] + kUnitsPerPixel - 1) / kUnitsPerPixel;
-    if (!agrees(x, below) && !agrees(x, above)) disparity16[x] = kUnmatched;
+    const int below = disparity16[x] >> kUnitBits, above = (disparity16[x] + kUnitsPerPixel - 1) >> kUnitBits;
+    const bool wrong = contradicts(x, below) & contradicts(x, above);
+    disparity16[x] = wrong ? kUnmatched : disparity16[x];
   }
 }
 

@@ -43,7 +43,7 @@ struct SemiGlobalConfig {
   int block_px = 5;             ///< side of the blocks over which costs are summed; odd, at most kMaxBlockPx
   int uniqueness_percent = 10;  ///< required margin of the best match over the second, 0 to 99
   int left_right_px = 1;        ///< maximum difference of the matches from both sides, >= 1
-  bool narrow = false;          ///< use the code for processors without AVX2: slower, with equal results
+  int max_lanes = 32;           ///< maximum number of disparities to process at a time; the results are equal
 };
 
 /// Computes the disparity of rectified pairs from block costs aggregated along five directions: from the left, the
@@ -70,16 +70,11 @@ class SemiGlobalMatcher {
   SemiGlobalConfig config_;
   int width_, height_;  ///< without the margin
   PixelCosts pixel_costs_;
-  std::vector<uint8_t> pixels_;  ///< costs of the pixels in a block's rows and one more, as a ring buffer
-  // Indexed by column, then by disparity, largest first.
-  std::vector<int16_t> columns_;                 ///< costs summed over the rows of a block
-  std::vector<int16_t> first_square_, squares_;  ///< costs of blocks
-  std::vector<int16_t> sums_;                    ///< costs summed over all paths
-  PathCosts from_left_, from_right_;             ///< of two alternating pixels
-  PathCosts from_above_, from_above_before_;     ///< of the current and the previous row
-  PathCosts from_above_left_, from_above_right_;
-  std::vector<Winner> winners_;
-  std::vector<int16_t> right_costs_, right_disparities_;  ///< best match so far for each pixel of the right image
+  std::vector<uint8_t> pixels_;   ///< costs of the pixels in a block's rows and one more, as a ring buffer
+  std::vector<int16_t> columns_;  ///< costs summed over the rows of a block around the first row
+  PathCosts paths_;
+  std::vector<int> right_matches_;  ///< disparity of each pixel of the right image; negative if unmatched
+  std::vector<int> matches_, dividends_, divisors_;  ///< of the pixels of a row
   cv::Mat found_;
 };
 

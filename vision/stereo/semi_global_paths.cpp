@@ -1,90 +1,9 @@
 #include "vision/stereo/semi_global_paths.h"
 
 #include <algorithm>
-#include <bit>
-
-#include "vision/stereo/cost_lanes.h"
 
 namespace hedgehop::vision::stereo {
 namespace {
-
-/// Pointers to a path's costs.
-struct Costs {
-  explicit Costs(PathCosts& path) : first(path.at(0)), minima(path.minima.data()), stride(path.stride) {}
-  int16_t* at(int pixel) const { return first + pixel * stride; }
-  int16_t *first, *minima;
-  ptrdiff_t stride;
-};
-
-/// Computes a pixel's costs along one path from those of the previous pixel.
-template <class Lanes>
-struct Path {
-  HEDGEHOP_INLINE Path(const int16_t* before, const Lanes& its_min_before, int16_t* next, const Lanes& its_step,
-                       const Lanes& leap_cost)
-      : from(before),
-        to(next),
-        step(its_step),
-        min_before(its_min_before),
-        leap(min_before + leap_cost),
-        minimum_so_far(all<Lanes>(INT16_MAX)) {}
-
-  HEDGEHOP_INLINE Lanes advance(int disparity, const Lanes& squares) {
-    const int16_t* at = from + disparity;
-    return advance(disparity, squares, load<Lanes>(at - 1), load<Lanes>(at), load<Lanes>(at + 1));
-  }
-
-  /// For a previous pixel that was just computed: loads with the alignment of the stores, which avoids a stall of the
-  /// processor.
-  HEDGEHOP_INLINE Lanes advance_from_last(int disparity, const Lanes& squares) {
-    const int16_t* at = from + disparity;
-    const Lanes before = load<Lanes>(at - kLanes<Lanes>), here = load<Lanes>(at),
-                after = load<Lanes>(at + kLanes<Lanes>);
-    return advance(disparity, squares, one_before(before, here), here, one_after(here, after));
-  }
-
-  HEDGEHOP_INLINE Lanes advance(int disparity, const Lanes& squares, const Lanes& below, const Lanes& same,
-                                const Lanes& above) {
-    const Lanes best = minimum(minimum(same, minimum(below, above) + step), leap);
-    const Lanes cost = squares + (best - min_before);
-    store(to + disparity, cost);
-    minimum_so_far = minimum(minimum_so_far, cost);
-    return cost;
-  }
-
-  const int16_t* from;
-  int16_t* to;
-  Lanes step, min_before, leap, minimum_so_far;
-};
-
-template <class Lanes>
-HEDGEHOP_INLINE void walk_right_by(const PathRow row, PathCosts& from_left, PathCosts& above, PathCosts& here,
-                                   PathCosts& from_above_right) {
-  const int disparities = row.disparities;
-  const Costs lefts(from_left), aboves(above), heres(here), rights(from_above_right);
-  const Lanes step = all<Lanes>(row.step_cost), leap = all<Lanes>(row.leap_cost);
-  int16_t *squares = row.squares, *sums = row.sums;
-  Lanes min_before{};
-  for (int x = 0; x < row.width; ++x, squares += disparities, sums += disparities) {
-    // From one block to the next, one column enters and one leaves. The first and last columns are repeated.
-    const int16_t* enters = row.columns + std::min(x + row.half, row.width - 1) * ptrdiff_t{disparities};
-    const int16_t* leaves = row.columns + std::max(x - row.half - 1, 0) * ptrdiff_t{disparities};
-    const int16_t* square_before = x == 0 ? row.square_before : squares - disparities;
-    const int turn = x % 2;
-    Path<Lanes> a(lefts.at(turn), min_before, lefts.at(1 - turn), step, leap),
-        b(aboves.at(x), all<Lanes>(aboves.minima[x]), heres.at(x), step, leap),
-        c(rights.at(x + 1), all<Lanes>(rights.minima[x + 1]), rights.at(x), step, leap);
-    for (int d = 0; d < disparities; d += kLanes<Lanes>) {
-      const Lanes square = load<Lanes>(square_before + d) + load<Lanes>(enters + d) - load<Lanes>(leaves + d);
-      store(squares + d, square);
-      const Lanes two = add_saturated(a.advance_from_last(d, square), b.advance(d, square));
-      store(sums + d, add_saturated(two, c.advance(d, square)));
-    }
-    const Lanes8 minima = minimum_of_each(a.minimum_so_far, b.minimum_so_far, c.minimum_so_far);
-    min_before = first_in_all(minima, min_before);
-    heres.minima[x] = minima[1];
-    rights.minima[x] = minima[2];
-  }
-}
 
 /// Threshold of the uniqueness test: floor((100 cost - 1) / (100 - uniqueness_percent)), computed by multiplication.
 /// Sums up to it are rivals of the best sum.
@@ -99,113 +18,249 @@ struct RivalThreshold {
   uint64_t reciprocal;
 };
 
-/// Returns the last one of the minimum sums, and whether all its rivals are adjacent to it.
-template <class Lanes>
-HEDGEHOP_INLINE Winner choose(const int16_t* sums, int16_t cost, int16_t rival_threshold, int disparities) {
-  const Lanes cheapest = all<Lanes>(cost), threshold = all<Lanes>(rival_threshold);
-  constexpr int kBits = 64;
-  int best = 0, last = 0, first = disparities;
-  for (int begin = 0; begin < disparities; begin += kBits) {
-    uint64_t equal = 0, rivals = 0;
-    for (int d = begin; d < std::min(begin + kBits, disparities); d += kLanes<Lanes>) {
-      const Lanes sum = load<Lanes>(sums + d);
-      equal |= uint64_t{bits(sum == cheapest)} << (d - begin);
-      rivals |= uint64_t{bits(sum <= threshold)} << (d - begin);
-    }
-    if (equal != 0) best = begin + std::bit_width(equal) - 1;
-    if (rivals == 0) continue;
-    last = begin + std::bit_width(rivals) - 1;
-    first = std::min(first, begin + std::countr_zero(rivals));
+/// Pointers to the costs of a row.
+struct Row {
+  int width, disparities, half;
+  int16_t step_cost, leap_cost;
+  RivalThreshold rival_threshold;
+  const uint8_t *enters, *leaves;
+  int16_t *pixels, *columns, *last_left, *last_right;
+  WinnerRow* winners;
+};
+
+/// Computes a pixel's costs along one path from those of the previous pixel.
+template <class Lanes, int kVectors>
+class Path {
+ public:
+  using PixelCosts = Costs<Lanes, kVectors>;
+
+  /// @param to  may be `from`. @param leap  maximum cost before the pixel's own is added. @param subtrahend  of all
+  /// costs.
+  HEDGEHOP_INLINE Path(const PixelCosts& from, const PixelCosts& to, const Lanes& step_cost, const Lanes& leap,
+                       const Lanes& subtrahend)
+      : from_(from),
+        to_(to),
+        before_(all<Lanes>(PathCosts::kFar)),
+        here_(from.at(0)),
+        step_cost_(step_cost),
+        leap_(leap),
+        subtrahend_(subtrahend) {}
+
+  /// Returns the costs of vector i, the next one.
+  HEDGEHOP_INLINE Lanes advance(int i, bool last, const Lanes& block) {
+    const Lanes after = last ? all<Lanes>(PathCosts::kFar) : from_.at(i + 1);
+    const Lanes adjacent = kVectors == 1 ? minimum(one_before(here_), one_after(here_))
+                                         : minimum(one_before(before_, here_), one_after(here_, after));
+    // The minimum of the previous pixel is known last.
+    const Lanes cost = (block - subtrahend_) + minimum(minimum(here_, Lanes(adjacent + step_cost_)), leap_);
+    to_.set(i, cost);
+    minimum_ = i == 0 ? cost : minimum(minimum_, cost);
+    before_ = here_;
+    here_ = after;
+    return cost;
   }
-  return {cost, static_cast<int16_t>(best), last <= best + 1 && first >= best - 1};
+  HEDGEHOP_INLINE const Lanes& minimum_so_far() const { return minimum_; }
+  HEDGEHOP_INLINE const PixelCosts& costs() const { return to_; }
+
+ private:
+  PixelCosts from_, to_;
+  Lanes before_, here_, step_cost_, leap_, subtrahend_, minimum_{};
+};
+
+/// Order of the two visits of a pixel. The second one selects the disparity.
+enum class Visit { first, second };
+
+/// Walks along a row in both directions at a time: each pixel's costs on a path depend on those of the previous one, so
+/// the processor would wait on a single path.
+/// @tparam kVectors  number of vectors of all disparities; 0: any.
+template <class Lanes, int kVectors>
+class RowWalk {
+ public:
+  using Kind = PathCosts::Kind;
+  using enum PathCosts::Kind;
+
+  HEDGEHOP_INLINE explicit RowWalk(const Row& row)
+      : row_(row),
+        step_cost_(all<Lanes>(row.step_cost)),
+        leap_cost_(all<Lanes>(row.leap_cost)),
+        left_(row.last_left),
+        right_(row.last_right) {}
+
+  /// Sums pixels to columns and these to blocks. The first and last columns are repeated.
+  HEDGEHOP_INLINE void sum_blocks() {
+    for (int d = 0; d < disparities(); d += kLanes<Lanes>) {
+      const auto column = [&](int x) __attribute__((always_inline)) {
+        return load<Lanes>(row_.columns + x * ptrdiff_t{disparities()} + d);
+      };
+      const auto update = [&](int x) __attribute__((always_inline)) {
+        const ptrdiff_t i = x * ptrdiff_t{disparities()} + d;
+        const Lanes sum =
+            load<Lanes>(row_.columns + i) + load_bytes<Lanes>(row_.enters + i) - load_bytes<Lanes>(row_.leaves + i);
+        store(row_.columns + i, sum);
+        return sum;
+      };
+      const int last = row_.width - 1;
+      for (int x = 0; x < std::min(row_.half, row_.width); ++x) update(x);
+      Lanes sum{};
+      for (int x = -row_.half; x < row_.half; ++x) sum += column(std::clamp(x, 0, last));
+      for (int x = 0; x <= last; ++x) {
+        sum += x + row_.half <= last ? update(x + row_.half) : column(last);
+        store(at(x, kBlock) + d, sum);
+        sum -= column(std::max(x - row_.half, 0));
+      }
+    }
+  }
+
+  HEDGEHOP_INLINE void walk() {
+    for (int i = 0; i < vectors(); ++i) {
+      left_.set(i, Lanes{});
+      right_.set(i, Lanes{});
+    }
+    const int last = row_.width - 1;
+    int x = 0;
+    for (; x < last - x; ++x) {
+      to_right<Visit::first>(x);
+      to_left<Visit::first>(last - x);
+    }
+    if (x == last - x) {
+      to_right<Visit::first>(x);
+      to_left<Visit::second>(x++);
+    }
+    for (; x <= last; ++x) {
+      to_right<Visit::second>(x);
+      to_left<Visit::second>(last - x);
+    }
+  }
+
+ private:
+  HEDGEHOP_INLINE int vectors() const { return kVectors > 0 ? kVectors : row_.disparities / kLanes<Lanes>; }
+  HEDGEHOP_INLINE int disparities() const { return vectors() * kLanes<Lanes>; }
+  HEDGEHOP_INLINE int16_t* at(int x, Kind kind) const {
+    return row_.pixels + (x * ptrdiff_t{kKinds} + kind) * disparities();
+  }
+
+  /// The path from the previous pixel of the row.
+  HEDGEHOP_INLINE Path<Lanes, kVectors> path_along(const Costs<Lanes, kVectors>& last, const Lanes& min_cost) const {
+    return {last, last, step_cost_, min_cost + leap_cost_, min_cost};
+  }
+  /// A path from the row above, whose costs are stored minus their minimum.
+  HEDGEHOP_INLINE Path<Lanes, kVectors> path_down(int16_t* from, int16_t* to) const {
+    return {Costs<Lanes, kVectors>(from), Costs<Lanes, kVectors>(to), step_cost_, leap_cost_, Lanes{}};
+  }
+  HEDGEHOP_INLINE void store_path_down(const Path<Lanes, kVectors>& path, const Lanes& min_cost, int16_t* to) const {
+    for (int i = 0; i < vectors(); ++i) store(to + i * kLanes<Lanes>, Lanes(path.costs().at(i) - min_cost));
+  }
+
+  /// Adds costs to the sums of a pixel. @param costs  function of a vector's index, whether it is the last one, and the
+  /// costs of the block. @return minimum sums.
+  template <Visit kVisit, class Function>
+  HEDGEHOP_INLINE Lanes add_to_sums(int x, const Function& costs) const {
+    Lanes min_sums{};
+    for (int i = 0; i < vectors(); ++i) {
+      const int d = i * kLanes<Lanes>;
+      Lanes sum = costs(i, i + 1 == vectors(), load<Lanes>(at(x, kBlock) + d));
+      if constexpr (kVisit == Visit::second) sum = add_saturated(sum, load<Lanes>(at(x, kSum) + d));
+      store(at(x, kSum) + d, sum);
+      min_sums = i == 0 ? sum : minimum(min_sums, sum);
+    }
+    return min_sums;
+  }
+
+  /// Adds the paths from the left, from above and from the upper right.
+  template <Visit kVisit>
+  HEDGEHOP_INLINE void to_right(int x) {
+    auto a = path_along(left_, min_left_), b = path_down(at(x, kAbove), at(x, kAbove)),
+         c = path_down(at(x + 1, kAboveRight), at(x, kAboveRight));
+    const Lanes min_sums = add_to_sums<kVisit>(
+        x, [&](int i, bool last, const Lanes& block) __attribute__((always_inline)) {
+          const Lanes two = add_saturated(a.advance(i, last, block), b.advance(i, last, block));
+          return add_saturated(two, c.advance(i, last, block));
+        });
+    const Lanes minima = minimum_of_each(a.minimum_so_far(), b.minimum_so_far(), c.minimum_so_far(), min_sums);
+    left_ = a.costs();
+    min_left_ = nth_in_all<0>(minima);
+    store_path_down(b, nth_in_all<1>(minima), at(x, kAbove));
+    store_path_down(c, nth_in_all<2>(minima), at(x, kAboveRight));
+    if constexpr (kVisit == Visit::second) choose_at(x, nth<3>(minima));
+  }
+
+  /// Adds the paths from the right and from the upper left.
+  template <Visit kVisit>
+  HEDGEHOP_INLINE void to_left(int x) {
+    auto a = path_along(right_, min_right_), b = path_down(at(x - 1, kAboveLeft), at(x, kAboveLeft));
+    const Lanes min_sums = add_to_sums<kVisit>(
+        x, [&](int i, bool last, const Lanes& block) __attribute__((always_inline)) {
+          return add_saturated(a.advance(i, last, block), b.advance(i, last, block));
+        });
+    const Lanes minima = minimum_of_each(a.minimum_so_far(), b.minimum_so_far(), min_sums, min_sums);
+    right_ = a.costs();
+    min_right_ = nth_in_all<0>(minima);
+    store_path_down(b, nth_in_all<1>(minima), at(x, kAboveLeft));
+    if constexpr (kVisit == Visit::second) choose_at(x, nth<2>(minima));
+  }
+
+  HEDGEHOP_INLINE void choose_at(int x, int16_t cost) const {
+    row_.winners->set(x, choose<Lanes, OfEqual::last>(at(x, kSum), cost, row_.rival_threshold.of(cost), disparities()));
+  }
+
+  const Row row_;
+  Lanes step_cost_, leap_cost_;
+  Costs<Lanes, kVectors> left_, right_;  ///< of the previous pixels
+  Lanes min_left_{}, min_right_{};       ///< their minima
+};
+
+template <class Lanes, int kVectors>
+HEDGEHOP_INLINE void walk(const Row& row) {
+  RowWalk<Lanes, kVectors> walk(row);
+  walk.sum_blocks();
+  walk.walk();
 }
 
 template <class Lanes>
-HEDGEHOP_INLINE void walk_left_by(const PathRow row, PathCosts& from_right, PathCosts& from_above_left,
-                                  int uniqueness_percent, Winner* winners) {
-  const int disparities = row.disparities;
-  const Costs rights(from_right), lefts(from_above_left);
-  const Lanes step = all<Lanes>(row.step_cost), leap = all<Lanes>(row.leap_cost);
-  const RivalThreshold rival_threshold(uniqueness_percent);
-  const int16_t* squares = row.squares + static_cast<ptrdiff_t>(row.width) * disparities;
-  int16_t* sums = row.sums + static_cast<ptrdiff_t>(row.width) * disparities;
-  Lanes min_before{};
-  for (int x = row.width - 1; x >= 0; --x) {
-    squares -= disparities;
-    sums -= disparities;
-    const int turn = x % 2;
-    Path<Lanes> a(rights.at(turn), min_before, rights.at(1 - turn), step, leap),
-        b(lefts.at(x), all<Lanes>(lefts.minima[x]), lefts.at(x + 1), step, leap);
-    Lanes min_sums = all<Lanes>(INT16_MAX);
-    for (int d = 0; d < disparities; d += kLanes<Lanes>) {
-      const Lanes square = load<Lanes>(squares + d);
-      const Lanes two = add_saturated(a.advance_from_last(d, square), b.advance(d, square));
-      const Lanes sum = add_saturated(load<Lanes>(sums + d), two);
-      store(sums + d, sum);
-      min_sums = minimum(min_sums, sum);
-    }
-    const Lanes8 minima = minimum_of_each(a.minimum_so_far, b.minimum_so_far, min_sums);
-    min_before = first_in_all(minima, min_before);
-    lefts.minima[x + 1] = minima[1];
-    winners[x] = choose<Lanes>(sums, minima[2], rival_threshold.of(minima[2]), disparities);
+HEDGEHOP_INLINE void add_row_by(const Row& row) {
+  switch (row.disparities / kLanes<Lanes>) {
+    case 1:
+      return walk<Lanes, 1>(row);
+    case 2:
+      return walk<Lanes, 2>(row);
+    default:
+      return walk<Lanes, 0>(row);
   }
 }
-
-void walk_right_narrow(const PathRow& row, PathCosts& from_left, PathCosts& above, PathCosts& here,
-                       PathCosts& from_above_right) {
-  walk_right_by<Lanes8>(row, from_left, above, here, from_above_right);
-}
-void walk_left_narrow(const PathRow& row, PathCosts& from_right, PathCosts& from_above_left, int uniqueness_percent,
-                      Winner* winners) {
-  walk_left_by<Lanes8>(row, from_right, from_above_left, uniqueness_percent, winners);
-}
-
-// The version for the processor is selected at program start.
-HEDGEHOP_TARGET_DEFAULT void walk_right_wide(const PathRow& row, PathCosts& from_left, PathCosts& above,
-                                             PathCosts& here, PathCosts& from_above_right) {
-  walk_right_narrow(row, from_left, above, here, from_above_right);
-}
-HEDGEHOP_TARGET_DEFAULT void walk_left_wide(const PathRow& row, PathCosts& from_right, PathCosts& from_above_left,
-                                            int uniqueness_percent, Winner* winners) {
-  walk_left_narrow(row, from_right, from_above_left, uniqueness_percent, winners);
-}
-#ifdef HEDGEHOP_HAS_AVX2
-[[gnu::target("avx2")]] void walk_right_wide(const PathRow& row, PathCosts& from_left, PathCosts& above,
-                                             PathCosts& here, PathCosts& from_above_right) {
-  walk_right_by<Lanes16>(row, from_left, above, here, from_above_right);
-}
-[[gnu::target("avx2")]] void walk_left_wide(const PathRow& row, PathCosts& from_right, PathCosts& from_above_left,
-                                            int uniqueness_percent, Winner* winners) {
-  walk_left_by<Lanes16>(row, from_right, from_above_left, uniqueness_percent, winners);
-}
-#endif
+HEDGEHOP_BY_LANES(add_row_to, add_row_by, Row)
 
 }  // namespace
 
-PathCosts::PathCosts(int pixels, int disparities)
-    : stride(disparities + kPadding),
-      costs(static_cast<size_t>(kPadding + pixels * stride), kFar),
-      minima(static_cast<size_t>(pixels), int16_t{0}) {
-  clear();
+PathCosts::PathCosts(const PathConfig& config)
+    : config_(config),
+      columns_(static_cast<size_t>(config.width) * static_cast<size_t>(config.disparities)),
+      last_left_(static_cast<size_t>(config.disparities)),
+      last_right_(last_left_),
+      winners_(config.width) {
+  const size_t count = (static_cast<size_t>(config.width) + 2) * kKinds * static_cast<size_t>(config.disparities);
+  pixels_.resize((count + kLanes<Lanes32> - 1) / kLanes<Lanes32>);
 }
 
-void PathCosts::clear() {
-  for (size_t pixel = 0; pixel < minima.size(); ++pixel) {
-    std::fill_n(at(static_cast<int>(pixel)), stride - kPadding, int16_t{0});
-    minima[pixel] = 0;
-  }
+void PathCosts::begin(const std::vector<int16_t>& columns) {
+  columns_ = columns;
+  std::fill(pixels_.begin(), pixels_.end(), CostLine{});
 }
 
-void walk_right(const PathRow& row, PathCosts& from_left, PathCosts& above, PathCosts& here,
-                PathCosts& from_above_right) {
-  if (row.narrow) return walk_right_narrow(row, from_left, above, here, from_above_right);
-  walk_right_wide(row, from_left, above, here, from_above_right);
-}
-
-void walk_left(const PathRow& row, PathCosts& from_right, PathCosts& from_above_left, int uniqueness_percent,
-               Winner* winners) {
-  if (row.narrow) return walk_left_narrow(row, from_right, from_above_left, uniqueness_percent, winners);
-  walk_left_wide(row, from_right, from_above_left, uniqueness_percent, winners);
+void PathCosts::add_row(const uint8_t* enters, const uint8_t* leaves) {
+  const Row row{config_.width,
+                config_.disparities,
+                config_.half,
+                config_.step_cost,
+                config_.leap_cost,
+                RivalThreshold(config_.uniqueness_percent),
+                enters,
+                leaves,
+                pixels_.front().costs + ptrdiff_t{kKinds} * config_.disparities,
+                columns_.data(),
+                last_left_.data(),
+                last_right_.data(),
+                &winners_};
+  add_row_to(row, usable_lanes(config_.max_lanes, config_.disparities));
 }
 
 }  // namespace hedgehop::vision::stereo

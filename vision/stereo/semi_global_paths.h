@@ -4,56 +4,53 @@
 #include <cstdint>
 #include <vector>
 
+#include "vision/stereo/best_disparity.h"
+#include "vision/stereo/cost_lanes.h"
+
 namespace hedgehop::vision::stereo {
 
-/// Costs along a path for a number of pixels, by disparity. There is padding for reads beyond the minimum and maximum
-/// disparity.
-struct PathCosts {
-  PathCosts(int pixels, int disparities);
-  void clear();  ///< sets all costs to zero
-  int16_t* at(int pixel) { return costs.data() + kPadding + static_cast<ptrdiff_t>(pixel) * stride; }
-
-  static constexpr int kPadding = 16;
-  /// Above all costs on a path; a step from it still fits 16 bits.
-  static constexpr int16_t kFar = INT16_MAX - 8 * 13 * 13;
-  int stride;
-  std::vector<int16_t> costs, minima;
-};
-
-/// Parameters and buffers for one image row.
-struct PathRow {
+/// Parameters of path costs.
+struct PathConfig {
   int width, disparities;        ///< a multiple of 16
   int half;                      ///< pixels of a block on each side of its center
   int16_t step_cost, leap_cost;  ///< for disparity changes along a path of one and of more
-  bool narrow;                   ///< process eight disparities at a time, even with AVX2
-  // Indexed by column, then by disparity:
-  const int16_t* columns;        ///< costs summed over the rows of a block
-  const int16_t* square_before;  ///< of the block around the column before the first
-  int16_t* squares;              ///< costs of blocks
-  int16_t* sums;                 ///< costs summed over all paths
+  int uniqueness_percent;        ///< 0 to 99: required margin of the best sum over those of non-adjacent disparities
+  int max_lanes;                 ///< maximum number of disparities to process at a time
 };
 
-/// Index of the best disparity of a pixel and its cost.
-struct Winner {
-  int16_t cost, at;
-  bool unique;
+/// Costs of blocks aggregated along five paths, row by row from the top: from the left, the right, and the three
+/// neighbors above. The costs of a pixel or block are in the order of disparities, largest first.
+///
+/// By [Hirschmuller2008] eq. (13), L(p, d) = C(p, d) + min(L(q, d), L(q, d - 1) + step, L(q, d + 1) + step,
+/// min L(q) + leap) - min L(q), with q the previous pixel of p.
+class PathCosts {
+ public:
+  /// Above all costs on a path; a step from it still fits 16 bits.
+  static constexpr int16_t kFar = INT16_MAX - 8 * 13 * 13;
+
+  explicit PathCosts(const PathConfig& config);
+
+  /// Begins an image. @param columns  for each pixel the costs, summed over the rows of the block around the first row.
+  void begin(const std::vector<int16_t>& columns);
+  /// Aggregates the costs of a row. @param enters, leaves  costs of the pixels by which the rows of its blocks differ
+  /// from those of the previous row.
+  void add_row(const uint8_t* enters, const uint8_t* leaves);
+
+  const WinnerRow& winners() const { return winners_; }
+  /// Costs of a pixel: of the block around it, summed over all paths, and of the paths through the row above.
+  enum Kind { kBlock, kSum, kAbove, kAboveLeft, kAboveRight, kKinds };
+
+ private:
+  /// A cache line, with the alignment of the widest registers.
+  struct alignas(sizeof(Lanes32)) CostLine {
+    int16_t costs[kLanes<Lanes32>] = {};
+  };
+
+  PathConfig config_;
+  std::vector<CostLine> pixels_;  ///< the costs of all kinds for each pixel, and one more pixel at both ends
+  std::vector<int16_t> columns_;
+  std::vector<int16_t> last_left_, last_right_;  ///< costs of the previous pixel
+  WinnerRow winners_;
 };
-
-// Path costs by [Hirschmuller2008] eq. (13): L(p, d) = C(p, d) + min(L(q, d), L(q, d - 1) + step, L(q, d + 1) + step,
-// min L(q) + leap) - min L(q), with q the previous pixel of p.
-
-/// Sums the costs of blocks and of the paths from the left, from above and from the upper right.
-/// @param from_left  two alternating pixels. @param above, here  of the previous and the current row.
-/// @param from_above_right  one pixel more than the row, the last one zero; previous row on input, current row on
-/// output.
-void walk_right(const PathRow& row, PathCosts& from_left, PathCosts& above, PathCosts& here,
-                PathCosts& from_above_right);
-
-/// Adds the costs of the paths from the right and from the upper left, and selects the best disparities.
-/// @param from_right  two alternating pixels. @param from_above_left  one pixel more than the row, the first one zero.
-/// @param uniqueness_percent  0 to 99: required margin of the best sum over those of non-adjacent disparities.
-/// @param winners  for each pixel the last one of the minimum sums.
-void walk_left(const PathRow& row, PathCosts& from_right, PathCosts& from_above_left, int uniqueness_percent,
-               Winner* winners);
 
 }  // namespace hedgehop::vision::stereo
