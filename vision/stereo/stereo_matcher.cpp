@@ -9,6 +9,7 @@
 
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
+#include "vision/stereo/block_matcher.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/semi_global_matcher.h"
 
@@ -26,17 +27,12 @@ void check(const StereoMatcherConfig& c) {
        "the block matcher takes squares of 5 px or more, got " + std::to_string(c.block_px));
 }
 
-/// Returns OpenCV's matcher; null if SemiGlobalMatcher gives equal results in less time.
+/// Returns OpenCV's matcher; null if ours gives equal results in less time.
 cv::Ptr<cv::StereoMatcher> make(const StereoMatcherConfig& c) {
   if (c.method == StereoMatcherConfig::Method::block) {
-    const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(c.disparities_px, c.block_px);
-    matcher->setUniquenessRatio(c.uniqueness_percent);
-    matcher->setTextureThreshold(c.texture);
-    matcher->setDisp12MaxDiff(c.left_right_px);
-    return matcher;
+    return c.block_px <= BlockMatcher::kMaxBlockPx ? nullptr : opencv_block(c);
   }
-  if (c.block_px <= SemiGlobalMatcher::kMaxBlockPx) return {};
-  return opencv_semi_global(c);
+  return c.block_px <= SemiGlobalMatcher::kMaxBlockPx ? nullptr : opencv_semi_global(c);
 }
 
 /// Copies the disparities without the margin. Disparities that point outside the right image become unknown.
@@ -61,26 +57,41 @@ cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config)
                                 /*preFilterCap=*/31, config.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
 }
 
+cv::Ptr<cv::StereoMatcher> opencv_block(const StereoMatcherConfig& config) {
+  const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(config.disparities_px, config.block_px);
+  matcher->setUniquenessRatio(config.uniqueness_percent);
+  matcher->setTextureThreshold(config.texture);
+  matcher->setDisp12MaxDiff(config.left_right_px);
+  return matcher;
+}
+
 struct StereoMatcher::Engine {
   StereoMatcherConfig config;
   cv::Ptr<cv::StereoMatcher> opencv;
-  std::optional<SemiGlobalMatcher> ours;  ///< for the current image size
-  cv::Mat left, right, disparity16;       ///< with a margin on the left
+  std::optional<SemiGlobalMatcher> semi_global;  ///< for the current image size
+  std::optional<BlockMatcher> block;             ///< likewise
+  cv::Mat left, right, disparity16;              ///< with a margin on the left
 
   void compute() {
     if (opencv) return opencv->compute(left, right, disparity16);
-    if (!ours || ours->size() != left.size()) {
-      ours.emplace(SemiGlobalConfig{config.disparities_px, config.block_px, config.uniqueness_percent,
-                                    std::max(config.left_right_px, 1)},
-                   left.size());
+    if (config.method == StereoMatcherConfig::Method::block) {
+      return compute_by(block, BlockConfig{config.disparities_px, config.block_px, config.uniqueness_percent,
+                                           config.texture, config.left_right_px});
     }
-    ours->compute(left, right, disparity16);
+    compute_by(semi_global, SemiGlobalConfig{config.disparities_px, config.block_px, config.uniqueness_percent,
+                                             std::max(config.left_right_px, 1)});
+  }
+
+  template <class Matcher, class Config>
+  void compute_by(std::optional<Matcher>& matcher, const Config& its_config) {
+    if (!matcher || matcher->size() != left.size()) matcher.emplace(its_config, left.size());
+    matcher->compute(left, right, disparity16);
   }
 };
 
 StereoMatcher::StereoMatcher(const StereoMatcherConfig& config) {
   check(config);
-  engine_ = std::make_unique<Engine>(Engine{config, make(config), {}, {}, {}, {}});
+  engine_ = std::make_unique<Engine>(Engine{config, make(config), {}, {}, {}, {}, {}});
 }
 StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
 StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;

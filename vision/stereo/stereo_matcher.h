@@ -29,8 +29,9 @@ void describe(Visitor& v, fields::ConfigOf<StereoMatcherConfig> auto& c) {
   v("block", c.block_px, {.unit = "px", .at_least = 1, .at_most = 51, .meaning = "side of the compared blocks; odd"});
 }
 
-/// Returns OpenCV's matcher for method `semi_global`. SemiGlobalMatcher gives equal results in less time, for blocks up
-/// to its maximum size.
+/// Return OpenCV's matchers. BlockMatcher and SemiGlobalMatcher give equal results in less time, for blocks up to their
+/// maximum sizes.
+cv::Ptr<cv::StereoMatcher> opencv_block(const StereoMatcherConfig& config);
 cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config);
 
 /// Computes the disparity of rectified grey pairs. Reuses its memory; equal pairs give equal disparities.
