@@ -54,7 +54,10 @@ struct Slope {
 
   F8 row(int row, F8 columns) const { return (at_first + static_cast<float>(row) * down) + columns * right; }
   /// Returns the values at arbitrary pixels of the tile.
-  F8 at(F8 columns, F8 rows) const { return (at_first + rows * down) + columns * right; }
+  template <class F>
+  F at(F columns, F rows) const {
+    return (rows * down + at_first) + columns * right;
+  }
 };
 
 inline Slope slope(const Affine& f, double u, double v) {

@@ -63,7 +63,7 @@ struct LaneSlopes {
 
 /// Finds the texture lookups of the pixels. Returns false if floats do not resolve 1/64 texel.
 template <int kPlanes>
-inline bool find_lookups(const SceneView& scene, PixelGroup& group, RowTaps& out) {
+inline bool find_lookups(const SceneView& scene, PixelGroup& group, Lookups<F8, I8>& out) {
   const int last = scene.layout.last_level;
   const bool shadows = scene.sun.depths != nullptr;
   group.fill(shadows);
@@ -73,12 +73,12 @@ inline bool find_lookups(const SceneView& scene, PixelGroup& group, RowTaps& out
   const LaneSlopes look(group.look, columns, rows);
   const F8 z = 1.0f / look.at[3], u = look.at[0] * z, v = look.at[1] * z;
   if (signs(maximum(magnitude(u), magnitude(v)) < kMaxPrecise) != 0xff) return false;
-  const TexturePositions at{integers(u), integers(v)};
+  const TexturePositions<I8> at{integers(u), integers(v)};
   const MipLevels sizes = mip_levels(squared_span(look.change(3), look.change(0), look.change(1), u, v, z), last);
   I8 texture;
   std::memcpy(&texture, group.texture, sizeof(texture));
   const auto taps_in = [&](I8 level) {
-    Taps found = taps<kPlanes>(level_layout(scene.layout, level), at);
+    Taps<I8> found = taps<kPlanes>(level_layout(scene.layout, level), at);
     found.place += texture;
     if (kPlanes > 1) found.below += texture;
     return found;
@@ -98,13 +98,14 @@ inline bool find_lookups(const SceneView& scene, PixelGroup& group, RowTaps& out
 }
 
 template <int kPlanes>
-inline void put_group(const SceneView& scene, const PixelGroup& group, const RowTaps& where,
+inline void put_group(const SceneView& scene, const PixelGroup& group, const Lookups<F8, I8>& where,
                       TileBytes (&out)[kPlanes]) {
-  uint64_t levels[kPlanes];
+  I8 levels[kPlanes];
   sample_texture(scene, 0, where, levels);
   for (int i = 0; i < kPlanes; ++i) {
-    uint8_t* const bytes = reinterpret_cast<uint8_t*>(out[i].rows);
-    for (int k = 0; k < group.count; ++k, levels[i] >>= 8) bytes[group.index[k]] = static_cast<uint8_t>(levels[i]);
+    uint8_t* const tile = reinterpret_cast<uint8_t*>(out[i].rows);
+    uint64_t pixels = bytes(levels[i]);
+    for (int k = 0; k < group.count; ++k, pixels >>= 8) tile[group.index[k]] = static_cast<uint8_t>(pixels);
   }
 }
 
@@ -113,7 +114,7 @@ template <int kPlanes>
 inline void shade_shifted(const SceneView& scene, const Frame& frame, const PixelGroup::SurfacePixels& layer, int u,
                           int v, TileBytes (&out)[kPlanes]) {
   const int any = __builtin_ctzll(layer.pixels);
-  RowTaps where{};
+  Lookups<F8, I8> where{};
   for (int shifted = 0; shifted < 2; ++shifted) {
     const Patch patch = shifted ? shifted_patch_of(scene, frame, layer.surface, u, v, any)
                                 : patch_of(scene, frame, layer.surface, u, v);
@@ -128,7 +129,7 @@ inline void shade_shifted(const SceneView& scene, const Frame& frame, const Pixe
 template <int kPlanes>
 inline void shade_group(const SceneView& scene, const Frame& frame, int u, int v, PixelGroup& group,
                         TileBytes (&out)[kPlanes]) {
-  RowTaps where{};
+  Lookups<F8, I8> where{};
   if (find_lookups<kPlanes>(scene, group, where)) {
     put_group(scene, group, where, out);
   } else {

@@ -72,24 +72,50 @@ inline Patch shifted_patch_of(const SceneView& scene, const Frame& frame, uint32
   return patch_of(scene, frame, index, u, v);
 }
 
-/// Texture lookups and brightness of a row of pixels.
-struct RowTaps {
-  Taps near, far;  ///< in the larger and the smaller texture size
-  F8 share;        ///< of the smaller
-  F8 light;
+/// Texture lookups and brightness of several pixels. @tparam F, I  vectors of the pixels.
+template <class F, class I>
+struct Lookups {
+  Taps<I> near, far;  ///< in the larger and the smaller texture size
+  F share;            ///< of the smaller
+  F light;
   bool mixed;  ///< whether any share is positive
 };
+using RowLookups = Lookups<FloatRows, IntRows>;
 
-/// Finds the texture lookups of a tile. Pairs of rows share their levels, as in Mesa's rasterizer.
-/// @tparam kCommon  whether the whole tile has one level.
+/// Returns the brightness of pixels with their share of sunlight.
+inline F8 in_sunlight(const SunDepths& sun, const Patch& patch, F8 columns, F8 rows, F8 z, F8 brightness) {
+  if (patch.sunlit != Sunlit::partly) return evenly_lit_by(sun, patch.sunlit, brightness);
+  const auto in_map = [&](int i) { return patch.sun[i].at(columns, rows) * z; };
+  return lit(sun, {in_map(0), in_map(1), in_map(2)}, brightness);
+}
+#ifdef __AVX512VL__
+inline FloatRows in_sunlight(const SunDepths& sun, const Patch& patch, FloatRows columns, FloatRows rows, FloatRows z,
+                             FloatRows brightness) {
+  const auto row = [&](int i) {
+    return in_sunlight(sun, patch, row_of(columns, i), row_of(rows, i), row_of(z, i), row_of(brightness, i));
+  };
+  return rows_of(row(0), row(1));
+}
+#endif
+
+/// Returns the bits of kRows rows.
+inline uint32_t rows_of(uint64_t pixels, int first) {
+  return static_cast<uint32_t>(pixels >> kTilePx * first) & ((1u << kTilePx * kRows) - 1);
+}
+
+/// Finds the texture lookups of a tile. Pairs of rows share the levels of their first row with pixels, as in Mesa's
+/// rasterizer.
+/// @tparam kCommon  whether the whole tile has one level. @param tile  output: lookups for each kRows rows.
 template <int kPlanes, bool kCommon>
-inline void find_lookups(const SceneView& scene, const Patch& patch, uint64_t pixels, RowTaps (&rows)[kTilePx]) {
-  using N = std::conditional_t<kCommon, int, I8>;
+inline void find_lookups(const SceneView& scene, const Patch& patch, uint64_t pixels,
+                         RowLookups (&tile)[kTilePx / kRows]) {
+  using N = std::conditional_t<kCommon, int, IntRows>;
   // Copies, so that the compiler need not reload them after each write.
   const TextureLayout& layout = scene.layout;
   const int last = layout.last_level;
   const Slope slope_w = patch.w(), slope_u = patch.u(), slope_v = patch.v();
-  const F8 max_position = all(1e9f), evenly = all(patch.cover->brightness());
+  const FloatRows columns = rows_of(kColumns), max_position = rows_of(all(1e9f));
+  const FloatRows evenly = rows_of(all(patch.cover->brightness()));
   const bool evenly_lit = patch.cover->evenly_lit, shadows = scene.sun.depths != nullptr;
   LevelLayout<N> near, far;
   if constexpr (kCommon) {
@@ -99,51 +125,49 @@ inline void find_lookups(const SceneView& scene, const Patch& patch, uint64_t pi
   MipLevels sizes{};
   bool mixed = false;
   int leveled = -1;  // pair of rows of the current sizes
-  for (int row = 0; row < kTilePx; ++row) {
-    if (row_of(pixels, row) == 0) continue;
-    const F8 z = 1.0f / slope_w.row(row, kColumns);
-    F8 u = slope_u.row(row, kColumns) * z, v = slope_v.row(row, kColumns) * z;
+  for (int row = 0; row < kTilePx; row += kRows) {
+    const uint32_t shown = rows_of(pixels, row);
+    if (shown == 0) continue;
+    const FloatRows rows = row_numbers() + static_cast<float>(row);
+    const FloatRows z = 1.0f / slope_w.at(columns, rows);
+    FloatRows u = slope_u.at(columns, rows) * z, v = slope_v.at(columns, rows) * z;
     if (!kCommon) {  // pixels outside the surface may have any position
       u = maximum(minimum(u, max_position), -max_position), v = maximum(minimum(v, max_position), -max_position);
     }
     if (leveled != row / 2) {
       leveled = row / 2;
-      sizes = mip_levels(squared_span(slope_w, slope_u, slope_v, u, v, z), last);
+      const int first = (shown & 0xff) != 0 ? 0 : 1;
+      sizes = mip_levels(squared_span(slope_w, slope_u, slope_v, row_of(u, first), row_of(v, first), row_of(z, first)),
+                         last);
       mixed = signs(sizes.share > 0.0f) != 0;
       if constexpr (!kCommon) {
-        near = level_layout(layout, sizes.larger);
-        if (mixed) far = level_layout(layout, minimum(sizes.larger + 1, all(last)));
+        near = rows_of(level_layout(layout, sizes.larger));
+        if (mixed) far = rows_of(level_layout(layout, minimum(sizes.larger + 1, all(last))));
       }
     }
-    const TexturePositions at{integers(u), integers(v)};
-    RowTaps& out = rows[row];
-    out.share = sizes.share;
+    const TexturePositions<IntRows> at{integers(u), integers(v)};
+    RowLookups& out = tile[row / kRows];
+    out.share = rows_of(sizes.share);
     out.mixed = mixed;
     out.near = taps<kPlanes>(near, at);
     if (mixed) out.far = taps<kPlanes>(far, at);
     out.light = evenly;
-    if (!evenly_lit) out.light = patch.brightness().row(row, kColumns) * z;
-    if (!shadows) continue;
-    if (patch.sunlit == Sunlit::partly) {
-      const auto in_map = [&](int i) { return patch.sun[i].row(row, kColumns) * z; };
-      out.light = lit(scene.sun, {in_map(0), in_map(1), in_map(2)}, out.light);
-    } else {
-      out.light = evenly_lit_by(scene.sun, patch.sunlit, out.light);
-    }
+    if (!evenly_lit) out.light = patch.brightness().at(columns, rows) * z;
+    if (shadows) out.light = in_sunlight(scene.sun, patch, columns, rows, z, out.light);
   }
 }
 
-/// Returns the levels, 0..255, of eight pixels. @param texture  position of the first texel of the texture.
-template <int kPlanes>
-inline void sample_texture(const SceneView& scene, size_t texture, const RowTaps& where, uint64_t (&levels)[kPlanes]) {
+/// Returns the levels of pixels. @param texture  position of the first texel of the texture.
+template <int kPlanes, class F, class I>
+inline void sample_texture(const SceneView& scene, size_t texture, const Lookups<F, I>& where, I (&levels)[kPlanes]) {
   constexpr float kUnit = 1.0f / 65025.0f;
-  I8 near[kPlanes], far[kPlanes];
+  I near[kPlanes], far[kPlanes];
   fetch(scene.texels, texture, where.near, near);
   if (where.mixed) fetch(scene.texels, texture, where.far, far);
   for (int i = 0; i < kPlanes; ++i) {
-    F8 level = floats(near[i]);
-    if (where.mixed) level += (floats(far[i]) - level) * where.share;
-    levels[i] = bytes(integers((level * kUnit + 128.0f) * where.light));
+    F level = floats(near[i]);
+    if (where.mixed) level = level + (floats(far[i]) - level) * where.share;
+    levels[i] = integers((level * kUnit + 128.0f) * where.light);
   }
 }
 
@@ -151,19 +175,18 @@ inline void sample_texture(const SceneView& scene, size_t texture, const RowTaps
 /// overlap.
 template <int kPlanes>
 inline void shade_rows(const SceneView& scene, const Patch& patch, uint64_t pixels, TileBytes (&out)[kPlanes]) {
-  RowTaps rows[kTilePx];
+  RowLookups tile[kTilePx / kRows];
   if (patch.level >= 0) {
-    find_lookups<kPlanes, true>(scene, patch, pixels, rows);
+    find_lookups<kPlanes, true>(scene, patch, pixels, tile);
   } else {
-    find_lookups<kPlanes, false>(scene, patch, pixels, rows);
+    find_lookups<kPlanes, false>(scene, patch, pixels, tile);
   }
-  for (int row = 0; row < kTilePx; ++row) {
-    const uint32_t shown = row_of(pixels, row);
+  for (int row = 0; row < kTilePx; row += kRows) {
+    const uint32_t shown = rows_of(pixels, row);
     if (shown == 0) continue;
-    const uint64_t here = kByteMasks.bytes[shown];
-    uint64_t levels[kPlanes];
-    sample_texture(scene, patch.cover->texture * scene.layout.positions, rows[row], levels);
-    for (int i = 0; i < kPlanes; ++i) out[i].rows[row] = (out[i].rows[row] & ~here) | (levels[i] & here);
+    IntRows levels[kPlanes];
+    sample_texture(scene, patch.cover->texture * scene.layout.positions, tile[row / kRows], levels);
+    for (int i = 0; i < kPlanes; ++i) put_levels(levels[i], shown, out[i].rows + row);
   }
 }
 

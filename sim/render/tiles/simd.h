@@ -87,25 +87,20 @@ inline uint32_t signs(I8 a) {
 inline uint32_t signs(L4 a) {
   return static_cast<uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(a))));
 }
-/// Returns four bytes from each 16-bit position. Reads one by one, because the gather instruction takes twice as long
-/// on AMD Zen 3.
-inline I8 gather(const uint16_t* from, I8 places) {
-  const auto four = [from](uint32_t place) {
+/// Returns four bytes from each of eight 16-bit positions. Reads one by one, because the gather instruction is slower
+/// on AMD Zen 3 and Zen 5.
+inline I8 gather(const uint16_t* from, const int32_t* places) {
+  const auto four = [&](int i) {
     int32_t texels = 0;
-    std::memcpy(&texels, from + place, sizeof(texels));
+    std::memcpy(&texels, from + static_cast<uint32_t>(places[i]), sizeof(texels));
     return texels;
   };
-  const auto half = [&](__m128i at) {
-    const auto a = static_cast<uint64_t>(_mm_cvtsi128_si64(at)), b = static_cast<uint64_t>(_mm_extract_epi64(at, 1));
-    const auto low = [](uint64_t two) { return static_cast<uint32_t>(two); };
-    const auto high = [](uint64_t two) { return static_cast<uint32_t>(two >> 32); };
-    const __m128i left = _mm_insert_epi32(_mm_cvtsi32_si128(four(low(a))), four(high(a)), 1);
-    const __m128i right = _mm_insert_epi32(_mm_cvtsi32_si128(four(low(b))), four(high(b)), 1);
+  const auto half = [&](int i) {
+    const __m128i left = _mm_insert_epi32(_mm_cvtsi32_si128(four(i)), four(i + 1), 1);
+    const __m128i right = _mm_insert_epi32(_mm_cvtsi32_si128(four(i + 2)), four(i + 3), 1);
     return _mm_unpacklo_epi64(left, right);
   };
-  const auto at = reinterpret_cast<__m256i>(places);
-  return reinterpret_cast<I8>(
-      _mm256_set_m128i(half(_mm256_extracti128_si256(at, 1)), half(_mm256_castsi256_si128(at))));
+  return reinterpret_cast<I8>(_mm256_set_m128i(half(4), half(0)));
 }
 /// Returns the numbers at each position and to the right of it.
 inline void gather(const float* from, I8 places, F8& here, F8& right) {
@@ -130,22 +125,30 @@ inline I8 look_up(const int32_t table[16], I8 i) {
   return pick(i > 7, reinterpret_cast<I8>(high), reinterpret_cast<I8>(low));
 #endif
 }
+/// Orders of bytes that repeat the lowest byte of each lane at the bytes of its row and column weights.
+inline __m128i bytes_for_rows() { return _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12); }
+inline __m128i bytes_for_columns() { return _mm_setr_epi8(0, -1, 0, -1, 4, -1, 4, -1, 8, -1, 8, -1, 12, -1, 12, -1); }
+/// Returns the weights 255 - b and b of rows or columns, b the lowest byte of a lane: 255 - b is ~b.
+inline __m256i row_weights(I8 v) {
+  const __m256i order = _mm256_broadcastsi128_si256(bytes_for_rows());
+  return _mm256_shuffle_epi8(reinterpret_cast<__m256i>(v), order) ^ _mm256_set1_epi32(0x00ff00ff);
+}
+inline __m256i column_weights(I8 u) {
+  const __m256i order = _mm256_broadcastsi128_si256(bytes_for_columns());
+  return _mm256_shuffle_epi8(reinterpret_cast<__m256i>(u), order) ^ _mm256_set1_epi32(0x000000ff);
+}
 /// Returns the weighted sum of four texels, in units of 1/65025.
 /// @param texels  minus 128, four bytes per lane: (left, upper), (left, lower), (right, upper), (right, lower).
-/// @param right, down  weights, 0..255.
-inline I8 mix(I8 texels, I8 right, I8 down) {
-  const I8 a_side = (255 - down) | down << 8;
-  const auto columns =
-      _mm256_maddubs_epi16(reinterpret_cast<__m256i>(a_side | a_side << 16), reinterpret_cast<__m256i>(texels));
-  return reinterpret_cast<I8>(_mm256_madd_epi16(columns, reinterpret_cast<__m256i>((255 - right) | right << 16)));
+/// @param u, v  their lowest bytes are the weights of the right and the lower texels.
+inline I8 mix(I8 texels, I8 u, I8 v) {
+  const __m256i columns = _mm256_maddubs_epi16(row_weights(v), reinterpret_cast<__m256i>(texels));
+  return reinterpret_cast<I8>(_mm256_madd_epi16(columns, column_weights(u)));
 }
 /// The same for three channels.
 /// @param texels  minus 128, four bytes each, the last one unused. The right neighbor follows each texel.
 /// @param upper, lower  positions of the left texels. @param sums  output for each channel.
-inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I8 (&sums)[3]) {
-  const I8 a_side = (255 - down) | down << 8;
-  const auto rows = reinterpret_cast<__m256i>(a_side | a_side << 16);
-  const auto columns = reinterpret_cast<__m256i>((255 - right) | right << 16);
+inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 u, I8 v, I8 (&sums)[3]) {
+  const __m256i rows = row_weights(v), columns = column_weights(u);
   const auto two = [texels](int32_t above, int32_t below) {  // texels of each row
     const auto* const from = reinterpret_cast<const __m128i*>(texels + above);
     const __m128d left = _mm_castsi128_pd(_mm_loadl_epi64(from));
@@ -206,7 +209,7 @@ inline uint32_t signs(L4 a) {
   for (int i = 0; i < 4; ++i) result |= static_cast<uint32_t>(a[i] < 0) << i;
   return result;
 }
-inline I8 gather(const uint16_t* from, I8 places) {
+inline I8 gather(const uint16_t* from, const int32_t* places) {
   I8 result;
   for (int i = 0; i < 8; ++i) {
     int32_t four = 0;
@@ -226,7 +229,8 @@ inline I8 look_up(const int32_t table[16], I8 i) {
   for (int k = 0; k < 8; ++k) result[k] = table[i[k]];
   return result;
 }
-inline I8 mix(I8 texels, I8 right, I8 down) {
+inline I8 mix(I8 texels, I8 u, I8 v) {
+  const I8 right = u & 255, down = v & 255;
   I8 result;
   for (int i = 0; i < 8; ++i) {
     int8_t t[4];
@@ -237,7 +241,8 @@ inline I8 mix(I8 texels, I8 right, I8 down) {
   }
   return result;
 }
-inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 right, I8 down, I8 (&sums)[3]) {
+inline void mix(const uint32_t* texels, I8 upper, I8 lower, I8 u, I8 v, I8 (&sums)[3]) {
+  const I8 right = u & 255, down = v & 255;
   for (int i = 0; i < 8; ++i) {
     for (int channel = 0; channel < 3; ++channel) {
       const auto level = [&](int32_t at) { return static_cast<int8_t>(texels[at] >> 8 * channel); };

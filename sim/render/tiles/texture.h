@@ -1,24 +1,27 @@
 #pragma once
 
+#include "sim/render/tiles/rows.h"
 #include "sim/render/tiles/scene_view.h"
-#include "sim/render/tiles/simd.h"
 
 namespace hedgehop::sim::tiles {
 namespace {
 
 /// Positions in a texture, in 1/256 texel of the largest size from the corner of the first texel.
+/// @tparam I  eight or sixteen lanes.
+template <class I>
 struct TexturePositions {
-  I8 u, v;
+  I u, v;
 };
 
-/// Four texels around a position, and their weights.
+/// Four texels around a position.
+template <class I>
 struct Taps {
-  I8 place;
-  I8 below;  ///< position of the lower two; for colors only
-  I8 right, down;
+  I place;
+  I below;  ///< position of the lower two; for colors only
+  I u, v;   ///< position in 1/256 texel from the first of them; only the lowest byte counts
 };
 
-/// The layout of a level in its texture. @tparam N  int for all lanes, or I8 with one number per lane.
+/// The layout of a level in its texture. @tparam N  int for all lanes, or one number per lane.
 template <class N>
 struct LevelLayout {
   N level, last;  ///< last column and row
@@ -31,27 +34,47 @@ inline LevelLayout<I8> level_layout(const TextureLayout& layout, I8 level) {
   return {level, (all(layout.size_px) >> level) - 1, layout.size_log2 - level, look_up(layout.first, level)};
 }
 
-template <int kPlanes, class N>
-inline Taps taps(const LevelLayout<N>& in, const TexturePositions& at) {
+inline LevelLayout<IntRows> rows_of(const LevelLayout<I8>& row) {
+  return {rows_of(row.level), rows_of(row.last), rows_of(row.size_log2), rows_of(row.first)};
+}
+
+template <int kPlanes, class N, class I>
+inline Taps<I> taps(const LevelLayout<N>& in, const TexturePositions<I>& at) {
   constexpr int kHalf = 128;
-  const I8 u = (at.u >> in.level) - kHalf, v = (at.v >> in.level) - kHalf;
-  const I8 x = (u >> 8) & in.last, y = (v >> 8) & in.last;
-  const auto place = [&](I8 row) { return in.first + (row << in.size_log2) + row + x; };
-  Taps taps;
+  const I u = (at.u >> in.level) - kHalf, v = (at.v >> in.level) - kHalf;
+  const I x = (u >> 8) & in.last, y = (v >> 8) & in.last;
+  const auto place = [&](I row) { return (row << in.size_log2) + row + x + in.first; };
+  Taps<I> taps;
   taps.place = place(y);
-  taps.right = u & 255;
-  taps.down = v & 255;
+  taps.u = u;
+  taps.v = v;
   if (kPlanes > 1) taps.below = place((y + 1) & in.last);
   return taps;
 }
 
 /// Returns weighted means of texels, minus 128, in units of 1/65025 level.
-inline void fetch(const Texels& texels, size_t texture, const Taps& taps, I8 (&means)[1]) {
-  means[0] = mix(gather(texels.greys + texture, taps.place), taps.right, taps.down);
+inline void fetch(const Texels& texels, size_t texture, const Taps<IntRows>& taps, IntRows (&means)[1]) {
+  const int32_t* const places = reinterpret_cast<const int32_t*>(&taps.place);
+  means[0] = mix(gather_rows(texels.greys + texture, places), taps.u, taps.v);
 }
-inline void fetch(const Texels& texels, size_t texture, const Taps& taps, I8 (&means)[3]) {
-  mix(texels.colors + texture, taps.place, taps.below, taps.right, taps.down, means);
+inline void fetch(const Texels& texels, size_t texture, const Taps<I8>& taps, I8 (&means)[3]) {
+  mix(texels.colors + texture, taps.place, taps.below, taps.u, taps.v, means);
 }
+#ifdef __AVX512VL__
+inline void fetch(const Texels& texels, size_t texture, const Taps<I8>& taps, I8 (&means)[1]) {
+  const int32_t* const places = reinterpret_cast<const int32_t*>(&taps.place);
+  means[0] = mix(gather(texels.greys + texture, places), taps.u, taps.v);
+}
+inline void fetch(const Texels& texels, size_t texture, const Taps<IntRows>& taps, IntRows (&means)[3]) {
+  I8 upper[3], lower[3];
+  const auto row = [&](int i) -> Taps<I8> {
+    return {row_of(taps.place, i), row_of(taps.below, i), row_of(taps.u, i), row_of(taps.v, i)};
+  };
+  fetch(texels, texture, row(0), upper);
+  fetch(texels, texture, row(1), lower);
+  for (int i = 0; i < 3; ++i) means[i] = rows_of(upper[i], lower[i]);
+}
+#endif
 
 /// The two sizes of a texture that are blended: the level of the larger one, and the share of the smaller one.
 struct MipLevels {
