@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/render/tiles/frame.h"
+#include "sim/render/tiles/rows.h"
 #include "sim/render/tiles/scene_view.h"
 #include "sim/render/tiles/set_up.h"
 #include "sim/render/tiles/simd.h"
@@ -10,11 +11,11 @@ namespace {
 
 /// Returns the pixels of a tile at which an affine function is positive. @param at_first  value at the first pixel.
 inline uint64_t where_positive(float at_first, float right, float down) {
-  const F8 along = kColumns * right;
+  const FloatRows along = rows_of(kColumns * right);
   uint64_t pixels = 0;
-  for (int row = 0; row < kTilePx; ++row) {
-    const F8 value = (at_first + static_cast<float>(row) * down) + along;
-    pixels |= static_cast<uint64_t>(signs(reinterpret_cast<I8>(value > 0.0f))) << kTilePx * row;
+  for (int row = 0; row < kTilePx; row += kRows) {
+    const FloatRows value = ((row_numbers() + static_cast<float>(row)) * down + at_first) + along;
+    pixels |= static_cast<uint64_t>(positive(value)) << kTilePx * row;
   }
   return pixels;
 }
@@ -23,12 +24,13 @@ inline uint64_t where_positive(float at_first, float right, float down) {
 /// @param at_first  value at the first pixel. @param right, down  change per eighth of a pixel.
 inline uint64_t inside(int64_t at_first, int64_t right, int64_t down) {
   const I8 columns = {0, 8, 16, 24, 32, 40, 48, 56};
-  I8 value = static_cast<int32_t>(at_first) + columns * static_cast<int32_t>(right);
-  const I8 next_row = all(static_cast<int32_t>(8 * down));
+  const auto next_row = static_cast<int32_t>(8 * down);
+  IntRows value = rows_of(static_cast<int32_t>(at_first) + columns * static_cast<int32_t>(right)) +
+                  integers(row_numbers()) * next_row;
   uint64_t outside = 0;
-  for (int row = 0; row < kTilePx; ++row) {
+  for (int row = 0; row < kTilePx; row += kRows) {
     outside |= static_cast<uint64_t>(signs(value)) << kTilePx * row;
-    value += next_row;
+    value += kRows * next_row;
   }
   return ~outside;
 }

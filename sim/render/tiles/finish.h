@@ -167,8 +167,9 @@ inline void make_interpolants(const SceneView& scene, const Frame& frame) {
 }
 
 template <int kPlanes>
-inline void shade_image(const SceneView& scene, const Frame& frame, const ImageMemory& image) {
+inline void shade_image(const SceneView& scene, Frame& frame, const ImageMemory& image) {
   make_interpolants(scene, frame);
+  if (scene.sun.depths != nullptr) frame.sun = sun_view(scene, frame.lens);
   TileBytes out[kPlanes] = {};  // mix_tile() multiplies unwritten bytes by 0
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {

@@ -40,6 +40,12 @@ struct alignas(32) Interpolants {
   double right[4], down[4], at_origin[4];
 };
 
+/// The shadow map as a camera in W sees it: column, row and depth in the map, and an unused value.
+struct SunView {
+  double at_eye[4];       ///< at the camera position
+  Interpolants in_image;  ///< their gradients
+};
+
 /// The pixels of a tile that show one surface. The layers of a tile are disjoint.
 struct Layer {
   uint64_t pixels;
@@ -73,6 +79,7 @@ struct Frame {
   Surface* surfaces;           ///< with space for the facets of the next call
   Interpolants* interpolants;  ///< of each surface
   size_t surface_count;
+  SunView sun;  ///< set with shadows
   Layer* pool;
   FrameMemory* memory;  ///< owner of all arrays
 };

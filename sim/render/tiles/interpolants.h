@@ -13,19 +13,27 @@ namespace {
 inline D4 load(const double a[4]) { return D4{a[0], a[1], a[2], a[3]}; }
 inline void store(D4 a, double to[4]) { std::memcpy(to, &a, sizeof(a)); }
 
-/// Returns four values that are affine over a plane, each divided by z.
-/// @param at_eye  the values extrapolated to the camera position. @param per_m  their gradients, in the frame of the
-/// plane.
-inline Interpolants over_z(D4 at_eye, const D4 (&per_m)[3], const double R_CW[9], const Affine& w,
-                           const PinholeImage& lens) {
+/// Returns the affine functions of the pixel that gradients in space become on the plane z = 1 of the camera.
+/// @param per_m  gradients of four values, in the frame of the camera's pose.
+inline Interpolants in_image(const D4 (&per_m)[3], const double R_CW[9], const PinholeImage& lens) {
   const double* const r = R_CW;
   const D4 x = (r[0] * per_m[0] + r[1] * per_m[1] + r[2] * per_m[2]) * lens.per_focal_x;
   const D4 y = (r[3] * per_m[0] + r[4] * per_m[1] + r[5] * per_m[2]) * lens.per_focal_y;
   const D4 z = r[6] * per_m[0] + r[7] * per_m[1] + r[8] * per_m[2];
+  Interpolants gradients;
+  store(x, gradients.right);
+  store(y, gradients.down);
+  store(z - x * lens.center_u_px - y * lens.center_v_px, gradients.at_origin);
+  return gradients;
+}
+
+/// Returns four values that are affine over a plane, each divided by z.
+/// @param at_eye  the values extrapolated to the camera position. @param gradients  of in_image(). @param w  1 / z.
+inline Interpolants over_z(D4 at_eye, const Interpolants& gradients, const Affine& w) {
   Interpolants interpolants;
-  store(at_eye * w.right + x, interpolants.right);
-  store(at_eye * w.down + y, interpolants.down);
-  store(at_eye * w.at_origin + (z - x * lens.center_u_px - y * lens.center_v_px), interpolants.at_origin);
+  store(at_eye * w.right + load(gradients.right), interpolants.right);
+  store(at_eye * w.down + load(gradients.down), interpolants.down);
+  store(at_eye * w.at_origin + load(gradients.at_origin), interpolants.at_origin);
   return interpolants;
 }
 
@@ -41,7 +49,7 @@ inline Interpolants interpolants_of(const SceneView& scene, const Frame& frame, 
   };
   const D4 per_m[3] = {scaled(3), scaled(6), scaled(9)};
   const D4 at_eye = scaled(0) + (per_m[0] * to_eye[0] + per_m[1] * to_eye[1] + per_m[2] * to_eye[2]);
-  Interpolants interpolants = over_z(at_eye, per_m, pose.R_CW, surface.w, frame.lens);
+  Interpolants interpolants = over_z(at_eye, in_image(per_m, pose.R_CW, frame.lens), surface.w);
   interpolants.right[3] = surface.w.right;
   interpolants.down[3] = surface.w.down;
   interpolants.at_origin[3] = surface.w.at_origin;

@@ -36,6 +36,18 @@ inline FloatRows minimum(FloatRows a, FloatRows b) { return _mm512_min_ps(a, b);
 inline FloatRows maximum(FloatRows a, FloatRows b) { return _mm512_max_ps(a, b); }
 inline FloatRows floats(IntRows a) { return __builtin_convertvector(a, FloatRows); }
 inline IntRows integers(FloatRows a) { return reinterpret_cast<IntRows>(_mm512_cvtps_epi32(a)); }
+/// Returns which lanes are positive, and the signs of the lanes; lane 0 in the lowest bit.
+inline uint32_t positive(FloatRows a) { return _mm512_cmp_ps_mask(a, _mm512_setzero_ps(), _CMP_GT_OQ); }
+inline uint32_t signs(IntRows a) { return _mm512_movepi32_mask(reinterpret_cast<__m512i>(a)); }
+inline IntRows minimum(IntRows a, IntRows b) {
+  return reinterpret_cast<IntRows>(_mm512_min_epi32(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
+}
+inline void gather(const float* from, IntRows places, FloatRows& here, FloatRows& right) {
+  F8 row_here[2], row_right[2];
+  for (int i = 0; i < 2; ++i) gather(from, row_of(places, i), row_here[i], row_right[i]);
+  here = rows_of(row_here[0], row_here[1]);
+  right = rows_of(row_right[0], row_right[1]);
+}
 inline IntRows gather_rows(const uint16_t* from, const int32_t* places) {
   return rows_of(gather(from, places), gather(from, places + 8));
 }
@@ -65,6 +77,7 @@ inline F8 rows_of(F8 row) { return row; }
 inline I8 rows_of(I8 row) { return row; }
 inline F8 row_of(F8 row, int) { return row; }
 inline F8 row_numbers() { return F8{}; }
+inline uint32_t positive(F8 a) { return signs(reinterpret_cast<I8>(a > 0.0f)); }
 inline I8 gather_rows(const uint16_t* from, const int32_t* places) { return gather(from, places); }
 inline void put_levels(I8 levels, uint32_t shown, uint64_t* rows) {
   const uint64_t here = kByteMasks.bytes[shown];

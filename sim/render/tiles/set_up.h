@@ -116,19 +116,19 @@ inline Extent extent_at_near_plane(const Corners& p, const PinholeImage& lens, d
 inline bool set_up(const FacetShape& shape, const ViewPose& pose, const PinholeImage& lens, double near_m,
                    double margin_px, FacetSetUp& out) {
   const Corners p = in_camera(shape, pose);
-  const Corners n{next(p.x), next(p.y), next(p.z)};
-  // next x this: positive inside, because corners are counter-clockwise from outside. Facets on both sides of an edge
-  // compute the same products.
-  const D4 ex = n.y * p.z - n.z * p.y, ey = n.z * p.x - n.x * p.z, ez = n.x * p.y - n.y * p.x;
-  const double volume = ex[0] * p.x[2] + ey[0] * p.y[2] + ez[0] * p.z[2];
-  if (!(volume > 0.0)) return false;
-
   const DoubleRange z = range(p.z);
   if (z.max < near_m) return false;
   const bool cut = z.min < near_m;
   const D4 per_z = 1.0 / p.z;
   out.extent = cut ? extent_at_near_plane(p, lens, near_m, margin_px) : extent_of(p, per_z, lens, margin_px);
   if (out.extent.left > out.extent.right || out.extent.top > out.extent.bottom) return false;
+
+  const Corners n{next(p.x), next(p.y), next(p.z)};
+  // next x this: positive inside, because corners are counter-clockwise from outside. Facets on both sides of an edge
+  // compute the same products.
+  const D4 ex = n.y * p.z - n.z * p.y, ey = n.z * p.x - n.x * p.z, ez = n.x * p.y - n.y * p.x;
+  const double volume = ex[0] * p.x[2] + ey[0] * p.y[2] + ez[0] * p.z[2];
+  if (!(volume > 0.0)) return false;
 
   const D4 a = ex * lens.per_focal_x, b = ey * lens.per_focal_y;
   out.edges = quantized(a, b, ez - a * lens.center_u_px - b * lens.center_v_px);

@@ -61,7 +61,7 @@ inline Patch patch_of(const SceneView& scene, const Frame& frame, uint32_t index
   patch.sun = Slopes{};
   if (scene.sun.depths != nullptr && !faces_away_from_sun(*patch.cover, scene.sun)) {
     patch.sunlit = Sunlit::partly;
-    patch.sun = sun_slopes(scene, frame.lens, surface.w, u, v);
+    patch.sun = sun_slopes(frame.sun, surface.w, u, v);
   }
   return patch;
 }
@@ -81,22 +81,6 @@ struct Lookups {
   bool mixed;  ///< whether any share is positive
 };
 using RowLookups = Lookups<FloatRows, IntRows>;
-
-/// Returns the brightness of pixels with their share of sunlight.
-inline F8 in_sunlight(const SunDepths& sun, const Patch& patch, F8 columns, F8 rows, F8 z, F8 brightness) {
-  if (patch.sunlit != Sunlit::partly) return evenly_lit_by(sun, patch.sunlit, brightness);
-  const auto in_map = [&](int i) { return patch.sun[i].at(columns, rows) * z; };
-  return lit(sun, {in_map(0), in_map(1), in_map(2)}, brightness);
-}
-#ifdef __AVX512VL__
-inline FloatRows in_sunlight(const SunDepths& sun, const Patch& patch, FloatRows columns, FloatRows rows, FloatRows z,
-                             FloatRows brightness) {
-  const auto row = [&](int i) {
-    return in_sunlight(sun, patch, row_of(columns, i), row_of(rows, i), row_of(z, i), row_of(brightness, i));
-  };
-  return rows_of(row(0), row(1));
-}
-#endif
 
 /// Returns the bits of kRows rows.
 inline uint32_t rows_of(uint64_t pixels, int first) {
@@ -153,7 +137,13 @@ inline void find_lookups(const SceneView& scene, const Patch& patch, uint64_t pi
     if (mixed) out.far = taps<kPlanes>(far, at);
     out.light = evenly;
     if (!evenly_lit) out.light = patch.brightness().at(columns, rows) * z;
-    if (shadows) out.light = in_sunlight(scene.sun, patch, columns, rows, z, out.light);
+    if (!shadows) continue;
+    if (patch.sunlit == Sunlit::partly) {
+      const auto in_map = [&](int i) { return patch.sun[i].at(columns, rows) * z; };
+      out.light = lit(scene.sun, {in_map(0), in_map(1), in_map(2)}, out.light);
+    } else {
+      out.light = evenly_lit_by(scene.sun, patch.sunlit, out.light);
+    }
   }
 }
 

@@ -1,20 +1,28 @@
 #pragma once
 
 #include "sim/render/tiles/interpolants.h"
+#include "sim/render/tiles/rows.h"
 
 namespace hedgehop::sim::tiles {
 namespace {
 
-/// Returns column, row and depth of the pixels of a tile in the shadow map, each divided by z. The fourth value is
-/// unused.
-/// @param w  1 / z of the surface. @param u, v  first pixel of the tile.
-inline Slopes sun_slopes(const SceneView& scene, const PinholeImage& lens, const Affine& w, int u, int v) {
+/// Returns the part of sun_slopes() that all surfaces of an image share.
+inline SunView sun_view(const SceneView& scene, const PinholeImage& lens) {
   const auto& f = scene.sun.from_W;
   const auto along = [&](int axis) { return D4{f[0][axis], f[1][axis], f[2][axis], 0.0}; };
   const D4 per_m[3] = {along(0), along(1), along(2)};
   const double* const p = scene.world.p_m;
-  const D4 at_eye = per_m[0] * p[0] + per_m[1] * p[1] + per_m[2] * p[2] + along(3);
-  return slopes(over_z(at_eye, per_m, scene.world.R_CW, w, lens), u, v);
+  SunView view;
+  store(per_m[0] * p[0] + per_m[1] * p[1] + per_m[2] * p[2] + along(3), view.at_eye);
+  view.in_image = in_image(per_m, scene.world.R_CW, lens);
+  return view;
+}
+
+/// Returns column, row and depth of the pixels of a tile in the shadow map, each divided by z. The fourth value is
+/// unused.
+/// @param w  1 / z of the surface. @param u, v  first pixel of the tile.
+inline Slopes sun_slopes(const SunView& view, const Affine& w, int u, int v) {
+  return slopes(over_z(load(view.at_eye), view.in_image, w), u, v);
 }
 
 constexpr float kSunRounding = 1e-5f;  ///< rounding of a depth in the map, towards the sun
@@ -78,35 +86,38 @@ inline Sunlit sunlit(const SunDepths& sun, const Slope& w, const Slopes& at) {
 }
 
 /// Returns the brightness of pixels with their share of sunlight, which is interpolated from four comparisons.
-/// @param at  column, row and depth in the shadow map.
-inline F8 lit(const SunDepths& sun, const F8 (&at)[3], F8 brightness) {
-  const float last = static_cast<float>(sun.texels);
-  const auto within = [&](F8 place) { return maximum(minimum(place, all(last)), all(-1.0f)); };
-  const F8 column = within(at[0]), line = within(at[1]);
-  const F8 depth = maximum(at[2] + kSunRounding, F8{});
-  const auto whole = [](F8 a) {
-    const I8 nearest = integers(a);
-    return nearest + (floats(nearest) > a);  // -1 if it was rounded up
+/// @param at  column, row and depth in the shadow map. @tparam F  vector of the pixels.
+template <class F>
+inline F lit(const SunDepths& sun, const F (&at)[3], F brightness) {
+  const F first = F{} - 1.0f, last = F{} + static_cast<float>(sun.texels);
+  const auto within = [&](F place) { return maximum(minimum(place, last), first); };
+  const F column = within(at[0]), line = within(at[1]);
+  const F depth = maximum(at[2] + kSunRounding, F{});
+  const auto whole = [&](F a) {
+    const auto nearest = integers(a);
+    const auto below = nearest + (floats(nearest) > a);  // -1 if it was rounded up
+    return minimum(below, decltype(below){} + (sun.texels - 1));
   };
-  const I8 x = minimum(whole(column), all(sun.texels - 1)), y = minimum(whole(line), all(sun.texels - 1));
-  const F8 right = column - floats(x), down = line - floats(y);
+  const auto x = whole(column), y = whole(line);
+  const F right = column - floats(x), down = line - floats(y);
   const int stride = sun.texels + 2;
-  const I8 place = (y + 1) * stride + (x + 1);
-  F8 above[2], below[2];  // left and right
+  const auto place = (y + 1) * stride + (x + 1);
+  F above[2], below[2];  // left and right
   gather(sun.depths, place, above[0], above[1]);
   gather(sun.depths, place + stride, below[0], below[1]);
   const auto share_of = [&](int side) {
-    const auto open = [&](F8 stored) { return pick(depth >= stored, all(1.0f), F8{}); };
+    const auto open = [&](F stored) { return pick(depth >= stored, F{} + 1.0f, F{}); };
     return open(above[side]) + (open(below[side]) - open(above[side])) * down;
   };
-  const F8 left_share = share_of(0), right_share = share_of(1);
-  const F8 share = left_share + (right_share - left_share) * right;
+  const F left_share = share_of(0), right_share = share_of(1);
+  const F share = left_share + (right_share - left_share) * right;
   return sun.ambient + share * (brightness - sun.ambient);
 }
 
 /// The same for a tile that is completely lit or completely in shadow.
-inline F8 evenly_lit_by(const SunDepths& sun, Sunlit sunlit, F8 brightness) {
-  return sunlit == Sunlit::all ? sun.ambient + (brightness - sun.ambient) : all(sun.ambient);
+template <class F>
+inline F evenly_lit_by(const SunDepths& sun, Sunlit sunlit, F brightness) {
+  return sunlit == Sunlit::all ? sun.ambient + (brightness - sun.ambient) : F{} + sun.ambient;
 }
 
 }  // namespace
