@@ -73,13 +73,17 @@ class ThetaStarSearch {
       for (int next_col = std::max(0, col - 1); next_col <= std::min(cols_ - 1, col + 1); ++next_col) {
         const int next = next_row * cols_ + next_col;
         if (closed_[index(next)] || !free(next)) continue;
-        // Directly from the parent if the segment is free, otherwise through this point.
+        // Directly from the parent if the segment is free, otherwise through this point. The segment is checked only if
+        // a path would be shorter than the known one.
         const int parent = parent_[index(node)];
-        const int via = is_visible(parent, next) ? parent : node;
-        const double length = length_[index(via)] + distance(via, next);
+        const double direct = length_[index(parent)] + distance(parent, next);
+        const double bent = length_[index(node)] + distance(node, next);
+        if (std::min(direct, bent) >= length_[index(next)]) continue;
+        const bool visible = is_visible(parent, next);
+        const double length = visible ? direct : bent;
         if (length >= length_[index(next)]) continue;
         length_[index(next)] = length;
-        parent_[index(next)] = via;
+        parent_[index(next)] = visible ? parent : node;
         open_.push({length + distance(next, to), next});
       }
     }
