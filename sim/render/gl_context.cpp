@@ -1,6 +1,7 @@
 #include "sim/render/gl_context.h"
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -41,6 +42,38 @@ void check_gl(const GlFunctions& gl, const char* activity) {
 
 namespace {
 
+/// The functions of OSMesa in use.
+struct Osmesa {
+  decltype(&OSMesaCreateContextAttribs) create_context;
+  decltype(&OSMesaDestroyContext) destroy_context;
+  decltype(&OSMesaGetCurrentContext) current_context;
+  decltype(&OSMesaMakeCurrent) make_current;
+  decltype(&OSMesaGetProcAddress) address;
+};
+
+/// Loads OSMesa at the first call. Loading it with LLVM takes longer than the rest of the start of a program.
+/// Throws std::runtime_error if it is not installed.
+const Osmesa& osmesa() {
+  static const Osmesa functions = [] {
+    void* const library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
+    if (library == nullptr) {
+      throw std::runtime_error(fmt::format("no OSMesa: {}; install Mesa's OSMesa (Debian: libosmesa6)", dlerror()));
+    }
+    Osmesa loaded{};
+    const auto load = [library](auto& function, const char* name) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+      if (!function) throw std::runtime_error(fmt::format("OSMesa has no {}; Hedgehop needs Mesa 21 or later", name));
+    };
+    load(loaded.create_context, "OSMesaCreateContextAttribs");
+    load(loaded.destroy_context, "OSMesaDestroyContext");
+    load(loaded.current_context, "OSMesaGetCurrentContext");
+    load(loaded.make_current, "OSMesaMakeCurrent");
+    load(loaded.address, "OSMesaGetProcAddress");
+    return loaded;
+  }();
+  return functions;
+}
+
 /// Mesa's software rasterizer behind OSMesa.
 class OsmesaContext final : public GlContext {
  public:
@@ -50,7 +83,7 @@ class OsmesaContext final : public GlContext {
 
  private:
   struct Destroy {
-    void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+    void operator()(osmesa_context* context) const { osmesa().destroy_context(context); }
   };
   std::unique_ptr<osmesa_context, Destroy> context_;
   std::array<uint32_t, 16> window_{};  // OSMesa requires a default framebuffer: 4 x 4 RGBA, never drawn to
@@ -72,19 +105,19 @@ OsmesaContext::OsmesaContext() {
                             OSMESA_CONTEXT_MINOR_VERSION,
                             3,
                             0};
-  context_.reset(OSMesaCreateContextAttribs(attributes, nullptr));
+  context_.reset(osmesa().create_context(attributes, nullptr));
   if (!context_) {
     throw std::runtime_error(
         "OSMesa created no OpenGL 3.3 core context (OSMesaCreateContextAttribs failed). Install Mesa's llvmpipe; unset "
         "GALLIUM_DRIVER if it names another driver");
   }
   make_current();
-  gl_ = load_gl(OSMesaGetProcAddress, "OSMesa");
+  gl_ = load_gl(osmesa().address, "OSMesa");
 }
 
 void OsmesaContext::make_current() {
-  if (OSMesaGetCurrentContext() == context_.get()) return;
-  if (OSMesaMakeCurrent(context_.get(), window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE) {
+  if (osmesa().current_context() == context_.get()) return;
+  if (osmesa().make_current(context_.get(), window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE) {
     throw std::runtime_error("OSMesaMakeCurrent refused the OpenGL context");
   }
 }
