@@ -1,6 +1,7 @@
 #include "scenes/additions.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "scenes/mesh/bodies.h"
 #include "scenes/mesh/tree_mesh.h"
@@ -32,9 +33,8 @@ std::vector<Eigen::Vector2d> BoxConfig::corners_NE_m() const {
 
 void add_boxes(const std::vector<BoxConfig>& boxes, uint64_t seed, Scene& scene) {
   if (boxes.empty()) return;
-  const int size_px = texture_size_px(scene);
-  const mesh::Cover brick{static_cast<uint32_t>(scene.textures.size()), textures::kWallTileM};
-  scene.textures.push_back(textures::paint_brick_wall(size_px, seed));
+  const auto paint = [size_px = scene.textures.size_px(), seed] { return textures::paint_brick_wall(size_px, seed); };
+  const mesh::Cover brick{scene.textures.add(paint), textures::kWallTileM};
   mesh::MeshBuilder builder("opaque");
   for (size_t k = 0; k < boxes.size(); ++k) {
     const BoxConfig& c = boxes[k];
@@ -89,17 +89,16 @@ class MoverImages {
 
  private:
   template <class Paint>
-  uint32_t index(int& known, Paint paint, uint64_t stream) {
-    if (known < 0) {
-      known = static_cast<int>(scene_.textures.size());
-      scene_.textures.push_back(paint(texture_size_px(scene_), derived_seed(seed_, stream)));
-    }
-    return static_cast<uint32_t>(known);
+  uint32_t index(std::optional<uint32_t>& known, Paint paint, uint64_t stream) {
+    const int size_px = scene_.textures.size_px();
+    const uint64_t seed = derived_seed(seed_, stream);
+    if (!known) known = scene_.textures.add([paint, size_px, seed] { return paint(size_px, seed); });
+    return *known;
   }
 
   uint64_t seed_;
   Scene& scene_;
-  int signal_ = -1, bark_ = -1, leaves_ = -1;
+  std::optional<uint32_t> signal_, bark_, leaves_;
 };
 
 Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {

@@ -16,11 +16,6 @@ Eigen::AlignedBox3d bounds_W(const Solid& solid) {
   return {solid.X_WS.translation() - reach, solid.X_WS.translation() + reach};
 }
 
-int texture_size_px(const Scene& scene) {
-  constexpr int kDefaultPx = 512;
-  return scene.textures.empty() ? kDefaultPx : scene.textures.front().cols;
-}
-
 size_t solid_count(const Scene& scene) {
   size_t count = scene.solids.size();
   for (const Mover& mover : scene.movers) count += mover.solids.size();

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "scenes/mesh/polyhedron.h"
 #include "scenes/motion.h"
+#include "scenes/texture_list.h"
 
 namespace hedgehop::scenes {
 
@@ -95,8 +95,8 @@ struct Sky {
 /// A world, as a plain value. Equal inputs to a generator give scenes that are equal bit for bit.
 struct Scene {
   std::string name;
-  std::vector<Mesh> meshes;       ///< one per material
-  std::vector<cv::Mat> textures;  ///< CV_8UC3 RGB, all of one square power-of-two size, tileable
+  std::vector<Mesh> meshes;  ///< one per material
+  TextureList textures;
   Lights lights;
   Sky sky;
   std::vector<Solid> solids;  ///< fixed obstacles, without the ground
@@ -107,9 +107,6 @@ struct Scene {
   bool has_ground = true;                                            ///< the plane z = 0 of W is an obstacle
   Eigen::AlignedBox2d bounds_NE_m;                                   ///< flight area in the plan (north, east), m
 };
-
-/// Returns the side of a scene's textures, px; 512 for a scene without textures.
-int texture_size_px(const Scene& scene);
 
 /// Returns the number of solids, including those of the movers.
 size_t solid_count(const Scene& scene);

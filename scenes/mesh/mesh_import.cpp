@@ -142,7 +142,7 @@ void add_import(const ImportConfig& c, Scene& scene) {
                                    aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs);
   if (!model || !model->mRootNode) refuse(c, importer.GetErrorString());
 
-  const int size_px = texture_size_px(scene);
+  const int size_px = scene.textures.size_px();
   const Eigen::Affine3d to_W = model_to_world(c);
   std::vector<int> images(model->mNumMaterials, -1);
   MeshBuilder builder("opaque");
@@ -158,8 +158,9 @@ void add_import(const ImportConfig& c, Scene& scene) {
     }
     int& image = images[mesh->mMaterialIndex];
     if (image < 0) {
-      image = static_cast<int>(scene.textures.size());
-      scene.textures.push_back(material_image(c, *model, *model->mMaterials[mesh->mMaterialIndex], size_px));
+      // Read now, because a missing image must not end a flight that has begun.
+      const cv::Mat texture = material_image(c, *model, *model->mMaterials[mesh->mMaterialIndex], size_px);
+      image = static_cast<int>(scene.textures.add([texture] { return texture; }));
     }
     builder.begin_chunk(false);
     draw(*mesh, body, to_W, static_cast<uint32_t>(image), builder);

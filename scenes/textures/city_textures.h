@@ -3,7 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <vector>
+
+#include "scenes/texture_list.h"
 
 namespace hedgehop::scenes::textures {
 
@@ -21,7 +22,7 @@ cv::Mat paint_trim(int size_px, uint64_t seed);
 struct CityTextures {
   static constexpr int kFacadeVariants = 2;
 
-  std::vector<cv::Mat> images;
+  TextureList images;
   std::array<uint32_t, 2> streets{};
   uint32_t crossing = 0;
   std::array<uint32_t, 3> lots{};
@@ -37,6 +38,6 @@ struct CityTextures {
 };
 
 /// Returns the textures of a city.
-CityTextures paint_city(int size_px, uint64_t seed);
+CityTextures city_textures(int size_px, uint64_t seed);
 
 }  // namespace hedgehop::scenes::textures

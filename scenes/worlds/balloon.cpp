@@ -20,20 +20,22 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   fields::require_bounds(config);
   require_texture_size(config.texture_size_px);
   const int size_px = static_cast<int>(config.texture_size_px);
+  const uint64_t grass_seed = derived_seed(seed, kBalloonImageStream);
   Scene scene;
   scene.name = "balloon";
-  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kBalloonImageStream)),
-                    textures::paint_blank(size_px, {0.90f, 0.42f, 0.10f})};
+  scene.textures = TextureList(size_px);
+  const uint32_t grass = scene.textures.add([=] { return textures::paint_grass(size_px, grass_seed); });
+  const uint32_t marking = scene.textures.add([=] { return textures::paint_blank(size_px, {0.90f, 0.42f, 0.10f}); });
   constexpr double kHalfM = 30.0;
   scene.bounds_NE_m = {Eigen::Vector2d(-kHalfM, -kHalfM), Eigen::Vector2d(kHalfM, kHalfM)};
 
   mesh::MeshBuilder mesh("opaque");
-  mesh::add_ground(kHalfM, {0, textures::kGrassTileM}, mesh);
+  mesh::add_ground(kHalfM, {grass, textures::kGrassTileM}, mesh);
   for (int64_t k = 0; k < config.markers; ++k) {
     const double north_m = static_cast<double>(k + 1) * config.marker_spacing_m;
     const mesh::Post marker{{north_m, kMarkerEastM, 0.0}, kMarkerRadiusM, kMarkerHeightM};
     mesh.begin_chunk(false);
-    mesh::add_post(marker, 12, {1, 1.0}, mesh);
+    mesh::add_post(marker, 12, {marking, 1.0}, mesh);
     scene.solids.push_back(mesh::solid_of("marker " + std::to_string(k + 1), marker));
   }
   scene.meshes.push_back(mesh.finish());

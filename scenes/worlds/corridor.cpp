@@ -88,17 +88,21 @@ void add_fixtures(const CorridorConfig& c, const CorridorSection& section, const
   }
 }
 
-std::vector<cv::Mat> paint_corridor(const CorridorConfig& c, uint64_t seed) {
+cv::Mat paint_paper(textures::WallPaper paper, int size_px, uint64_t seed) {
+  return textures::paint_room_walls(paper, size_px, 1, seed).front();
+}
+
+TextureList corridor_textures(const CorridorConfig& c, uint64_t seed) {
+  using textures::faded, textures::WallPaper;
   const int size_px = static_cast<int>(c.texture_size_px);
-  std::vector<cv::Mat> images = {
-      textures::paint_brick_wall(size_px, derived_seed(seed, 0)),
-      textures::paint_room_walls(textures::WallPaper::plaster, size_px, 1, derived_seed(seed, 1)).front(),
-      textures::paint_room_walls(textures::WallPaper::damask, size_px, 1, derived_seed(seed, 2)).front()};
-  images.push_back(textures::paint_parquet(size_px, derived_seed(seed, 3)));
-  images.push_back(textures::paint_ceiling(size_px, derived_seed(seed, 4)));
-  for (size_t k = 0; k < images.size(); ++k)
-    images[k] = textures::faded(images[k], k < kWalls ? c.texture : c.floor_texture);
-  return images;
+  const double wall = c.texture, floor = c.floor_texture;
+  TextureList list(size_px);
+  list.add([=] { return faded(textures::paint_brick_wall(size_px, derived_seed(seed, 0)), wall); });
+  list.add([=] { return faded(paint_paper(WallPaper::plaster, size_px, derived_seed(seed, 1)), wall); });
+  list.add([=] { return faded(paint_paper(WallPaper::damask, size_px, derived_seed(seed, 2)), wall); });
+  list.add([=] { return faded(textures::paint_parquet(size_px, derived_seed(seed, 3)), floor); });
+  list.add([=] { return faded(textures::paint_ceiling(size_px, derived_seed(seed, 4)), floor); });
+  return list;
 }
 
 }  // namespace
@@ -110,7 +114,7 @@ Scene make_corridor(const CorridorConfig& written, uint64_t seed) {
   scene.name = "corridor";
   scene.lights.ambient = 0.70f;
   scene.lights.sun = 0.30f;
-  scene.textures = paint_corridor(config, derived_seed(seed, kCorridorImageStream));
+  scene.textures = corridor_textures(config, derived_seed(seed, kCorridorImageStream));
   for (size_t k = 0; k < plan.lefts_NE.size(); ++k) {
     scene.bounds_NE_m.extend(plan.lefts_NE[k]);
     scene.bounds_NE_m.extend(plan.rights_NE[k]);

@@ -140,19 +140,23 @@ mesh::Polyhedron hull_of(const Tower& tower) {
 
 constexpr uint32_t kTowerGrass = 0, kTowerRoof = 1, kFirstTowerWall = 2;
 
-std::vector<cv::Mat> paint_highrise(const HighriseConfig& config, uint64_t seed) {
+TextureList highrise_textures(const HighriseConfig& config, uint64_t seed) {
   const int size_px = static_cast<int>(config.texture_size_px);
-  std::vector<cv::Mat> images = {textures::paint_grass(size_px, derived_seed(seed, 0)),
-                                 textures::paint_blank(size_px, {0.62f, 0.30f, 0.24f})};
+  const bool plain_walls = config.walls == HighriseConfig::Walls::plain;
+  TextureList list(size_px);
+  list.add([=] { return textures::paint_grass(size_px, derived_seed(seed, 0)); });
+  list.add([=] { return textures::paint_blank(size_px, {0.62f, 0.30f, 0.24f}); });
   const cv::Vec3f plain[] = {
       {0.86f, 0.84f, 0.80f}, {0.80f, 0.72f, 0.58f}, {0.66f, 0.70f, 0.76f}, {0.90f, 0.88f, 0.86f}};
-  const std::vector<textures::FacadeStyle>& styles = textures::facade_styles();
   for (size_t k = 0; k < 4; ++k) {
-    images.push_back(config.walls == HighriseConfig::Walls::plain
-                         ? textures::paint_blank(size_px, plain[k])
-                         : textures::paint_facades(styles[2 * k + 1], size_px, 1, derived_seed(seed, k + 1)).front());
+    const cv::Vec3f color = plain[k];
+    list.add([=] {
+      if (plain_walls) return textures::paint_blank(size_px, color);
+      const textures::FacadeStyle& style = textures::facade_styles()[2 * k + 1];
+      return textures::paint_facades(style, size_px, 1, derived_seed(seed, k + 1)).front();
+    });
   }
-  return images;
+  return list;
 }
 
 }  // namespace
@@ -171,7 +175,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   require_texture_size(config.texture_size_px);
   Scene scene;
   scene.name = "highrise";
-  scene.textures = paint_highrise(config, seed);
+  scene.textures = highrise_textures(config, seed);
   const double half_m = 60.0 * config.scale;
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");

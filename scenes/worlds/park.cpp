@@ -75,20 +75,23 @@ class PlacementPlanner {
 constexpr uint32_t kParkGrass = 0, kAsphalt = 1, kParkBark = 2, kRock = 3, kFirstParkLeaves = 4, kFirstPaint = 7;
 constexpr int kParkLeaves = 3, kPaints = 3;
 
-std::vector<cv::Mat> paint_park(int size_px, uint64_t seed) {
-  std::vector<cv::Mat> images = {textures::paint_grass(size_px, derived_seed(seed, 0)),
-                                 textures::paint_asphalt_road(size_px, derived_seed(seed, 1)),
-                                 textures::paint_bark(size_px, derived_seed(seed, 2)),
-                                 textures::paint_rock(size_px, derived_seed(seed, 3)),
-                                 textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 4)),
-                                 textures::paint_leaves(textures::Leaves::autumn, size_px, derived_seed(seed, 5)),
-                                 textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 6))};
+TextureList park_textures(int size_px, uint64_t seed) {
+  using textures::Leaves, textures::paint_leaves;
+  TextureList list(size_px);
+  list.add([=] { return textures::paint_grass(size_px, derived_seed(seed, 0)); });
+  list.add([=] { return textures::paint_asphalt_road(size_px, derived_seed(seed, 1)); });
+  list.add([=] { return textures::paint_bark(size_px, derived_seed(seed, 2)); });
+  list.add([=] { return textures::paint_rock(size_px, derived_seed(seed, 3)); });
+  list.add([=] { return paint_leaves(Leaves::broad, size_px, derived_seed(seed, 4)); });
+  list.add([=] { return paint_leaves(Leaves::autumn, size_px, derived_seed(seed, 5)); });
+  list.add([=] { return paint_leaves(Leaves::broad, size_px, derived_seed(seed, 6)); });
   const textures::Color paints[kPaints] = {{0.62f, 0.08f, 0.08f}, {0.16f, 0.26f, 0.48f}, {0.80f, 0.80f, 0.78f}};
   for (uint64_t k = 0; k < kPaints; ++k) {
-    images.push_back(textures::paint_vehicle_body(paints[k], size_px, derived_seed(seed, 10 + k)));
-    images.push_back(textures::paint_vehicle_cabin(paints[k], size_px, derived_seed(seed, 20 + k)));
+    const textures::Color paint = paints[k];
+    list.add([=] { return textures::paint_vehicle_body(paint, size_px, derived_seed(seed, 10 + k)); });
+    list.add([=] { return textures::paint_vehicle_cabin(paint, size_px, derived_seed(seed, 20 + k)); });
   }
-  return images;
+  return list;
 }
 
 // Builds the objects of the park, each in a chunk of its own.
@@ -185,7 +188,7 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   validate(config);
   Scene scene;
   scene.name = "park";
-  scene.textures = paint_park(static_cast<int>(config.texture_size_px), derived_seed(seed, kParkImageStream));
+  scene.textures = park_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kParkImageStream));
   const double half_m = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");

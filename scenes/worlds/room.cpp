@@ -98,41 +98,38 @@ std::vector<Eigen::AlignedBox3d> place_furniture(const RoomConfig& c, Random& ra
   return pieces;
 }
 
-struct RoomImages {
-  std::vector<cv::Mat> images;
+struct RoomTextures {
+  TextureList images;
   std::vector<uint32_t> first_wall;  // of kWallVariants, for each of the four walls
   uint32_t floor = 0, ceiling = 0, grass = 0;
   std::vector<uint32_t> furniture;
 };
 
-RoomImages paint_room(const RoomConfig& c, uint64_t seed) {
+RoomTextures room_textures(const RoomConfig& c, uint64_t seed) {
   const int size_px = static_cast<int>(c.texture_size_px);
-  RoomImages room;
-  const auto add = [&](cv::Mat image) {
-    room.images.push_back(std::move(image));
-    return static_cast<uint32_t>(room.images.size() - 1);
+  RoomTextures room{.images = TextureList(size_px)};
+  const auto add = [&](cv::Mat (*paint)(int, uint64_t), uint64_t stream) {
+    const uint64_t image_seed = derived_seed(seed, stream);
+    return room.images.add([=] { return paint(size_px, image_seed); });
   };
   Random random(derived_seed(seed, 0));
-  room.floor = add(chance(random, 0.5) ? textures::paint_parquet(size_px, derived_seed(seed, 1))
-                                       : textures::paint_carpet(size_px, derived_seed(seed, 1)));
+  room.floor = add(chance(random, 0.5) ? textures::paint_parquet : textures::paint_carpet, 1);
   if (c.ceiling) {
-    room.ceiling = add(textures::paint_ceiling(size_px, derived_seed(seed, 2)));
+    room.ceiling = add(textures::paint_ceiling, 2);
   } else {
-    room.grass = add(textures::paint_grass(size_px, derived_seed(seed, 2)));
+    room.grass = add(textures::paint_grass, 2);
   }
-  if (c.furniture > 0) {
-    room.furniture = {add(textures::paint_shelves(size_px, derived_seed(seed, 3))),
-                      add(textures::paint_drawers(size_px, derived_seed(seed, 4)))};
-  }
+  if (c.furniture > 0) room.furniture = {add(textures::paint_shelves, 3), add(textures::paint_drawers, 4)};
 
   // A different wallpaper for each wall.
   std::vector<textures::WallPaper> papers = {textures::WallPaper::stripes, textures::WallPaper::brick,
                                              textures::WallPaper::damask, textures::WallPaper::plaster};
   for (uint64_t wall = 0; wall < 4; ++wall) {
     const auto pick = papers.begin() + uniform_index(random, static_cast<int>(papers.size()));
-    room.first_wall.push_back(static_cast<uint32_t>(room.images.size()));
-    for (cv::Mat& image : textures::paint_room_walls(*pick, size_px, kWallVariants, derived_seed(seed, 5 + wall)))
-      add(std::move(image));
+    const textures::WallPaper paper = *pick;
+    const uint64_t image_seed = derived_seed(seed, 5 + wall);
+    const auto paint = [=] { return textures::paint_room_walls(paper, size_px, kWallVariants, image_seed); };
+    room.first_wall.push_back(room.images.add(kWallVariants, paint));
     papers.erase(pick);
   }
   return room;
@@ -191,7 +188,7 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   validate(config);
   Random furniture_random(derived_seed(seed, kFurnitureStream));
   const std::vector<Eigen::AlignedBox3d> furniture = place_furniture(config, furniture_random);
-  RoomImages room = paint_room(config, derived_seed(seed, kRoomImageStream));
+  RoomTextures room = room_textures(config, derived_seed(seed, kRoomImageStream));
   Random random(derived_seed(seed, kSurfaceStream));
 
   Scene scene;

@@ -31,17 +31,22 @@ void validate(const TreeConfig& c) {
   require_texture_size(c.texture_size_px);
 }
 
+TextureList tree_textures(textures::Leaves leaves, int size_px, uint64_t seed) {
+  TextureList list(size_px);
+  list.add([=] { return textures::paint_grass(size_px, derived_seed(seed, 0)); });
+  list.add([=] { return textures::paint_leaves(leaves, size_px, derived_seed(seed, 1)); });
+  list.add([=] { return textures::paint_bark(size_px, derived_seed(seed, 2)); });
+  return list;
+}
+
 }  // namespace
 
 Scene make_tree(const TreeConfig& config, uint64_t seed) {
   validate(config);
-  const int size_px = static_cast<int>(config.texture_size_px);
-  const uint64_t image_seed = derived_seed(seed, kTreeImageStream);
   Scene scene;
   scene.name = "tree";
-  scene.textures = {textures::paint_grass(size_px, derived_seed(image_seed, 0)),
-                    textures::paint_leaves(config.leaves, size_px, derived_seed(image_seed, 1)),
-                    textures::paint_bark(size_px, derived_seed(image_seed, 2))};
+  scene.textures =
+      tree_textures(config.leaves, static_cast<int>(config.texture_size_px), derived_seed(seed, kTreeImageStream));
   const Eigen::Vector2d foot_NE(config.north_m, config.east_m);
   const double around_m = std::max(40.0, 3.0 * config.crown_diameter_m);
   scene.bounds_NE_m = {Eigen::Vector2d(foot_NE.array() - around_m), Eigen::Vector2d(foot_NE.array() + around_m)};
@@ -187,13 +192,16 @@ int64_t plot(const TreeSite& place) {
 constexpr uint32_t kGrass = 0, kFirstLeaves = 1, kFirstBark = 4;
 constexpr int kLeaves = 3, kBarks = 2;
 
-std::vector<cv::Mat> paint_forest(int size_px, uint64_t seed) {
-  return {textures::paint_grass(size_px, derived_seed(seed, 0)),
-          textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 1)),
-          textures::paint_leaves(textures::Leaves::needles, size_px, derived_seed(seed, 2)),
-          textures::paint_leaves(textures::Leaves::broad, size_px, derived_seed(seed, 3)),
-          textures::paint_bark(size_px, derived_seed(seed, 4)),
-          textures::paint_bark(size_px, derived_seed(seed, 5))};
+TextureList forest_textures(int size_px, uint64_t seed) {
+  using textures::Leaves, textures::paint_leaves;
+  TextureList list(size_px);
+  list.add([=] { return textures::paint_grass(size_px, derived_seed(seed, 0)); });
+  list.add([=] { return paint_leaves(Leaves::broad, size_px, derived_seed(seed, 1)); });
+  list.add([=] { return paint_leaves(Leaves::needles, size_px, derived_seed(seed, 2)); });
+  list.add([=] { return paint_leaves(Leaves::broad, size_px, derived_seed(seed, 3)); });
+  list.add([=] { return textures::paint_bark(size_px, derived_seed(seed, 4)); });
+  list.add([=] { return textures::paint_bark(size_px, derived_seed(seed, 5)); });
+  return list;
 }
 
 }  // namespace
@@ -213,7 +221,7 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
 
   Scene scene;
   scene.name = "forest";
-  scene.textures = paint_forest(static_cast<int>(config.texture_size_px), derived_seed(seed, kForestImageStream));
+  scene.textures = forest_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kForestImageStream));
   const double half_m = 0.5 * config.extent_m();
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");

@@ -27,7 +27,7 @@ Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   const UrbanPlan plan = plan_urban(config, derived_seed(seed, kUrbanPlanStream));
   require_texture_size(config.texture_size_px);
   textures::CityTextures city =
-      textures::paint_city(static_cast<int>(config.texture_size_px), derived_seed(seed, kUrbanImageStream));
+      textures::city_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kUrbanImageStream));
 
   Scene scene;
   scene.name = "urban";

@@ -53,18 +53,25 @@ cv::Mat paint(WallConfig::Surface surface, int size_px, uint64_t seed) {
   return textures::paint_brick_wall(size_px, seed);
 }
 
+TextureList wall_textures(const WallConfig& config, uint64_t seed) {
+  const int size_px = static_cast<int>(config.texture_size_px);
+  const uint64_t grass_seed = derived_seed(seed, kWallGrassStream), wall_seed = derived_seed(seed, kWallStream);
+  TextureList list(size_px);
+  list.add([=] { return textures::paint_grass(size_px, grass_seed); });
+  list.add([=, surface = config.surface] { return paint(surface, size_px, wall_seed); });
+  return list;
+}
+
 }  // namespace
 
 Scene make_wall(const WallConfig& written, uint64_t seed) {
   validate(written);
   const WallConfig config = draw_wall(written, seed);
-  const int size_px = static_cast<int>(config.texture_size_px);
   Scene scene;
   scene.name = "wall";
   // A low sun in the south lights the face toward the vehicle.
   scene.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
-  scene.textures = {textures::paint_grass(size_px, derived_seed(seed, kWallGrassStream)),
-                    paint(config.surface, size_px, derived_seed(seed, kWallStream))};
+  scene.textures = wall_textures(config, seed);
   const double half_m = std::max(config.width_m, std::abs(config.north_m) + 20.0);
   scene.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");

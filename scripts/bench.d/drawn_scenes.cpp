@@ -29,26 +29,33 @@ Eigen::Isometry3d down(double north_m, double east_m, double height_m) {
   return X_WC;
 }
 
+/// Returns a scene with its textures, so that no benchmark of drawing paints them.
+scenes::Scene painted(const scenes::SceneConfig& config) {
+  scenes::Scene scene = scenes::make_scene(config, 1);
+  scene.textures.images();
+  return scene;
+}
+
 }  // namespace
 
 scenes::Scene city(double extent_m) {
   scenes::worlds::UrbanConfig config;
   config.extent_m = extent_m;
-  return scenes::make_scene(config, 1);
+  return painted(config);
 }
 
-scenes::Scene room() { return scenes::make_scene(scenes::worlds::RoomConfig{}, 1); }
+scenes::Scene room() { return painted(scenes::worlds::RoomConfig{}); }
 
 scenes::Scene forest(int64_t trees) {
-  return scenes::make_scene(scenes::worlds::ForestConfig{.trees = trees, .keep_clear = {{0.0, 0.0, 2.0}}}, 1);
+  return painted(scenes::worlds::ForestConfig{.trees = trees, .keep_clear = {{0.0, 0.0, 2.0}}});
 }
 
 scenes::Scene full_screen_quad() {
   constexpr double kTexelsPerPixel = 1.6;
   scenes::Scene scene;
-  scene.textures = {city(300.0).textures.front()};
+  scene.textures = std::vector<cv::Mat>{city(300.0).textures.images().front()};
   const double texels_per_m = kTexelsPerPixel * right_angle_pinhole(kSidePx, kSidePx).focal_x_px / kFlightHeightM;
-  const float half_m = 50.0f, repeats = static_cast<float>(texels_per_m * 50.0 / scene.textures.front().cols);
+  const float half_m = 50.0f, repeats = static_cast<float>(texels_per_m * 50.0 / scene.textures.size_px());
   scenes::Mesh& mesh = scene.meshes.emplace_back();
   mesh.material = "opaque";
   for (const auto& [north, east] : {std::pair{-1.f, -1.f}, {-1.f, 1.f}, {1.f, 1.f}, {1.f, -1.f}}) {

@@ -192,13 +192,13 @@ void LocalMap640Floor(benchmark::State& state) {
 BENCHMARK(LocalMap640Floor)->Unit(benchmark::kMillisecond);
 
 void make(benchmark::State& state, const auto& config) {
-  for (auto _ : state) benchmark::DoNotOptimize(scenes::make_scene(config, 1).textures.data());
+  for (auto _ : state) benchmark::DoNotOptimize(scenes::make_scene(config, 1).textures.images().data());
 }
 // No scene can do without writing the pixels of its textures.
 void write_textures(benchmark::State& state, const auto& config) {
-  const scenes::Scene scene = scenes::make_scene(config, 1);
+  const std::vector<cv::Mat> textures = scenes::make_scene(config, 1).textures.images();
   for (auto _ : state) {
-    for (const cv::Mat& texture : scene.textures) benchmark::DoNotOptimize(texture.clone().data);
+    for (const cv::Mat& texture : textures) benchmark::DoNotOptimize(texture.clone().data);
   }
 }
 void City(benchmark::State& state) { make(state, scenes::worlds::UrbanConfig{.extent_m = 300.0}); }

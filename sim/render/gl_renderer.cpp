@@ -44,6 +44,7 @@ GlRenderer::GlRenderer(const scenes::Scene& scene, Culling culling, RendererKind
       culling_(culling),
       sky_(scene.sky),
       motions_(motions_of(scene)),
+      textures_(scene.textures),
       geometry_(make_geometry(scene)),
       visible_(geometry_.chunks, geometry_.tiles),
       greys_(grey_program(gl_, shadows)),
@@ -55,7 +56,7 @@ GlRenderer::GlRenderer(const scenes::Scene& scene, Culling culling, RendererKind
       counts_(max_stretches(geometry_)),
       offsets_(counts_.size()),
       stretch_labels_(counts_.size()) {
-  upload(gl_, geometry_, scene.textures);
+  upload_meshes(gl_, geometry_);
   geometry_.vertices = {};
   geometry_.indices = {};
   gl_.Enable(GL_CULL_FACE);
@@ -71,6 +72,10 @@ GlRenderer::GlRenderer(const scenes::Scene& scene, Culling culling, RendererKind
 void GlRenderer::render(const vision::camera::PinholeCamera& camera, const Viewpoint& view, Raster raster, int samples,
                         cv::Mat& out) {
   context_->make_current();
+  if (textures_ && (raster == Raster::grey || raster == Raster::color)) {
+    upload_textures(gl_, textures_->images());
+    textures_.reset();
+  }
   targets_.bind(gl_, {camera.width_px, camera.height_px, raster, samples});
   const float farthest = 0.0f;
   gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);

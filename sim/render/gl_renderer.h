@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ class GlRenderer : public PinholeRenderer {
   const GlFunctions& gl_ = context_->gl();
   Culling culling_;
   scenes::Sky sky_;
-  std::vector<scenes::Motion> motions_;  ///< of the moving obstacles
-  SceneGeometry geometry_;               ///< chunks only; vertices and indices are in the context
+  std::vector<scenes::Motion> motions_;          ///< of the moving obstacles
+  std::optional<scenes::TextureList> textures_;  ///< until they are in the context
+  SceneGeometry geometry_;                       ///< chunks only; vertices and indices are in the context
   VisibleChunks visible_;
   Program greys_, colors_, depths_, planes_, labels_, skies_;
   RenderTargets targets_;

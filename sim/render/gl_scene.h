@@ -10,10 +10,12 @@
 
 namespace hedgehop::sim {
 
-/// Copies a scene to the context and leaves it bound: one vertex buffer and one index buffer, so that one call can draw
-/// several meshes, and a GL_TEXTURE_2D_ARRAY of RGBA8 on texture unit 0.
-/// @param textures  of the scene.
-void upload(const GlFunctions& gl, const SceneGeometry& geometry, const std::vector<cv::Mat>& textures);
+/// Copies the meshes of a scene to the context and leaves them bound: one vertex buffer and one index buffer, so that
+/// one call can draw several meshes.
+void upload_meshes(const GlFunctions& gl, const SceneGeometry& geometry);
+
+/// Copies textures to the context and leaves them bound: a GL_TEXTURE_2D_ARRAY of RGBA8 on texture unit 0.
+void upload_textures(const GlFunctions& gl, const std::vector<cv::Mat>& textures);
 
 /// Draws the map of plan_sun_map() into a GL_TEXTURE_2D of depths and binds it to texture unit 1. A comparing sampler
 /// returns the share of sunlight, 0..1, that reaches a point. The scene's vertex array must be bound.

@@ -40,12 +40,6 @@ void check(const scenes::Mesh& mesh, size_t texture_count) {
 }
 
 void check(const scenes::Scene& scene) {
-  for (const cv::Mat& texture : scene.textures) {
-    const int size = scene.textures.front().cols;
-    require(texture.type() == CV_8UC3 && texture.cols == size && texture.rows == size && size > 0 &&
-                (size & (size - 1)) == 0,
-            "textures must be CV_8UC3, square, and all of one power-of-two size");
-  }
   for (const scenes::Mesh& mesh : scene.meshes) check(mesh, scene.textures.size());
   for (const scenes::Mover& mover : scene.movers) check(mover.mesh, scene.textures.size());
 }

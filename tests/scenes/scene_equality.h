@@ -41,8 +41,9 @@ inline bool identical(const Scene& a, const Scene& b) {
     if (!identical(a.movers[k].mesh, b.movers[k].mesh) || !identical(a.movers[k].solids, b.movers[k].solids))
       return false;
   }
-  for (size_t k = 0; k < a.textures.size(); ++k) {
-    const cv::Mat &p = a.textures[k], &q = b.textures[k];
+  const std::vector<cv::Mat> of_a = a.textures.images(), of_b = b.textures.images();
+  for (size_t k = 0; k < of_a.size(); ++k) {
+    const cv::Mat &p = of_a[k], &q = of_b[k];
     if (p.size() != q.size() || std::memcmp(p.data, q.data, p.total() * p.elemSize()) != 0) return false;
   }
   return true;

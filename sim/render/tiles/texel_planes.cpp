@@ -6,6 +6,8 @@ namespace hedgehop::sim::tiles {
 
 namespace {
 
+scenes::TextureList black_texel() { return std::vector<cv::Mat>{cv::Mat::zeros(1, 1, CV_8UC3)}; }
+
 /// Sums of pixels over the squares that the texels of a level cover. They are exact and thus equal on every processor.
 using SumsOfLevel = std::vector<uint32_t>;
 
@@ -52,9 +54,8 @@ void each_level(SumsOfLevel sums, const TextureLayout& layout, uint64_t channels
 
 }  // namespace
 
-TexelPlanes::TexelPlanes(const std::vector<cv::Mat>& textures) : textures_(textures) {
-  if (textures_.empty()) textures_.emplace_back(cv::Mat::zeros(1, 1, CV_8UC3));
-  layout_.size_px = textures_.front().cols;
+TexelPlanes::TexelPlanes(const scenes::TextureList& textures) : textures_(textures.empty() ? black_texel() : textures) {
+  layout_.size_px = textures_.size_px();
   layout_.size_log2 = std::countr_zero(static_cast<uint32_t>(layout_.size_px));
   layout_.last_level = layout_.size_log2;
   for (int level = 0; level <= layout_.last_level; ++level) {
@@ -76,14 +77,15 @@ const uint16_t* TexelPlanes::greys() {
       greys_.push_back(static_cast<uint16_t>(here[0] | below[0] << 8));
     }
   };
-  for (const cv::Mat& texture : textures_) each_level(sums_of(texture, grey), layout_, 3, add);
+  for (const cv::Mat& texture : textures_.images()) each_level(sums_of(texture, grey), layout_, 3, add);
   return greys_.data();
 }
 
 const uint32_t* TexelPlanes::colors() {
   if (!colors_.empty()) return colors_.data();
   colors_.resize(textures_.size() * layout_.positions);
-  for (size_t texture = 0; texture < textures_.size(); ++texture) {
+  const std::vector<cv::Mat> images = textures_.images();
+  for (size_t texture = 0; texture < images.size(); ++texture) {
     for (int channel = 0; channel < 3; ++channel) {
       const auto value = [channel](const cv::Vec3b& rgb) { return uint32_t{rgb[channel]}; };
       const auto add = [&](int level, size_t size, const std::vector<uint8_t>& levels) {
@@ -92,7 +94,7 @@ const uint32_t* TexelPlanes::colors() {
           for (size_t col = 0; col <= size; ++col) *place++ |= uint32_t{levels[row * size + col % size]} << 8 * channel;
         }
       };
-      each_level(sums_of(textures_[texture], value), layout_, 1, add);
+      each_level(sums_of(images[texture], value), layout_, 1, add);
     }
   }
   return colors_.data();

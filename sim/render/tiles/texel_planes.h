@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
-#include <vector>
 
+#include "scenes/texture_list.h"
 #include "sim/render/tiles/huge_pages.h"
 #include "sim/render/tiles/scene_view.h"
 
@@ -13,8 +12,8 @@ namespace hedgehop::sim::tiles {
 /// pixels of the full image that it covers, rounded once. Greys and colors are each computed at the first use.
 class TexelPlanes {
  public:
-  /// @param textures  CV_8UC3 RGB, square, of one power-of-two size. An empty list gives one black texel.
-  explicit TexelPlanes(const std::vector<cv::Mat>& textures);
+  /// @param textures  an empty list gives one black texel.
+  explicit TexelPlanes(const scenes::TextureList& textures);
 
   const TextureLayout& layout() const { return layout_; }
 
@@ -22,7 +21,7 @@ class TexelPlanes {
   const uint32_t* colors();
 
  private:
-  std::vector<cv::Mat> textures_;
+  scenes::TextureList textures_;
   TextureLayout layout_{};
   HugeVector<uint16_t> greys_;
   HugeVector<uint32_t> colors_;

@@ -32,7 +32,7 @@ class MeshImport : public testing::Test {
   }
   static Scene imported(const ImportConfig& config) {
     Scene scene;
-    scene.textures.push_back(cv::Mat(64, 64, CV_8UC3, cv::Scalar(0, 0, 0)));
+    scene.textures = std::vector<cv::Mat>{cv::Mat(64, 64, CV_8UC3, cv::Scalar(0, 0, 0))};
     add_imports({config}, scene);
     return scene;
   }
@@ -76,7 +76,7 @@ TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   }
   EXPECT_LT((box.min() - Eigen::Vector3f(8, 22, -7)).norm(), 1e-5f);
   EXPECT_LT((box.max() - Eigen::Vector3f(12, 22, -1)).norm(), 1e-5f);
-  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(5, 5), cv::Vec3b(255, 0, 0));
+  EXPECT_EQ(scene.textures.images().at(1).at<cv::Vec3b>(5, 5), cv::Vec3b(255, 0, 0));
   ASSERT_EQ(scene.solids.size(), 1u);
   EXPECT_EQ(scene.solids[0].shape, Solid::Shape::surface);
   EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 2u);
@@ -131,9 +131,9 @@ TEST_F(MeshImport, MapsItsImageUpright) {
   const std::string file = write("quad.obj", kQuad);
   write("quad.mtl", "newmtl paint\nmap_Kd flag.png\n");
   const Scene scene = imported({.file = file});
-  ASSERT_EQ(scene.textures.at(1).size(), cv::Size(64, 64));
-  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(10, 30), cv::Vec3b(0, 0, 200));
-  EXPECT_EQ(scene.textures.at(1).at<cv::Vec3b>(50, 30), cv::Vec3b(200, 0, 0));
+  ASSERT_EQ(scene.textures.images().at(1).size(), cv::Size(64, 64));
+  EXPECT_EQ(scene.textures.images().at(1).at<cv::Vec3b>(10, 30), cv::Vec3b(0, 0, 200));
+  EXPECT_EQ(scene.textures.images().at(1).at<cv::Vec3b>(50, 30), cv::Vec3b(200, 0, 0));
 }
 
 TEST_F(MeshImport, ReadsGltf) {

@@ -139,7 +139,7 @@ TEST(Images, OfFacadesDoNotRepeatFromBayToBay) {
 
 TEST(Images, AreOneSquareSizeAndNeitherBlackNorWhite) {
   for (const SceneConfig& config : {SceneConfig(worlds::UrbanConfig{}), SceneConfig(worlds::RoomConfig{})}) {
-    for (const cv::Mat& image : make_scene(config, 27).textures) {
+    for (const cv::Mat& image : make_scene(config, 27).textures.images()) {
       ASSERT_EQ(image.type(), CV_8UC3);
       ASSERT_EQ(image.size(), cv::Size(512, 512));
       const double mean = cv::mean(grey(image))[0];

@@ -43,7 +43,7 @@ TEST(Urban, SameSeedGivesTheSameSceneBitForBit) {
 TEST(Urban, AnotherSeedGivesAnotherCityAndOtherTextures) {
   const Scene a = make_scene(city_with_small_images(), 7), b = make_scene(city_with_small_images(), 8);
   EXPECT_FALSE(identical(a, b));
-  EXPECT_GT(cv::norm(a.textures.back(), b.textures.back(), cv::NORM_L1), 0.0);
+  EXPECT_GT(cv::norm(a.textures.images().back(), b.textures.images().back(), cv::NORM_L1), 0.0);
   EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
 }
 

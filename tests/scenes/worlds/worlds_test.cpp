@@ -110,7 +110,8 @@ TEST(Corridor, DoorwayAndPillarLeaveTheConfiguredWidth) {
 TEST(Corridor, TextureScalesTheContrastOfItsWalls) {
   const auto contrast = [](double texture) {
     cv::Scalar mean, deviation;
-    cv::meanStdDev(make_corridor({.texture = texture, .texture_size_px = 128}, 1).textures.at(0), mean, deviation);
+    cv::meanStdDev(make_corridor({.texture = texture, .texture_size_px = 128}, 1).textures.images().at(0), mean,
+                   deviation);
     return deviation[0];
   };
   EXPECT_EQ(contrast(0.0), 0.0);
@@ -121,7 +122,7 @@ TEST(Corridor, TextureScalesTheContrastOfItsWalls) {
 TEST(Corridor, PlainWallsDoNotChangeTheFloor) {
   const auto contrast = [](const CorridorConfig& config, size_t image) {
     cv::Scalar mean, deviation;
-    cv::meanStdDev(make_corridor(config, 1).textures.at(image), mean, deviation);
+    cv::meanStdDev(make_corridor(config, 1).textures.images().at(image), mean, deviation);
     return deviation[0];
   };
   constexpr size_t kWall = 0, kFloor = 3;

@@ -22,7 +22,7 @@ constexpr double kFlowPeriodS = 0.02;
 scenes::Scene textured_plane(uint64_t seed) {
   const scenes::Scene city = scenes::make_scene(scenes::worlds::UrbanConfig{.extent_m = 60.0}, seed);
   scenes::Scene scene;
-  scene.textures = {city.textures.at(seed % city.textures.size())};
+  scene.textures = std::vector<cv::Mat>{city.textures.images().at(seed % city.textures.size())};
   scene.lights = city.lights;
   scenes::mesh::MeshBuilder builder("opaque");
   builder.begin_chunk(false);

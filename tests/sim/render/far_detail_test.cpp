@@ -28,7 +28,7 @@ scenes::Scene post_on_box(double post_m) {
   add({0.0, -1.0, -2.0}, {1.0, 1.0, 0.0});
   mesh.keep_from_afar(box_from, post_m);
   scenes::Scene scene;
-  scene.textures = {cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(128))};
+  scene.textures = std::vector<cv::Mat>{cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(128))};
   scene.meshes.push_back(mesh.finish());
   return scene;
 }

@@ -168,7 +168,7 @@ double coarseness(Renderer& renderer, const Camera& camera, const Camera& fine, 
 // Blur and aliasing together must not be much larger than for a pinhole.
 TEST(LensImage, ErrorIsAtMost25PercentLargerThanForAPinhole) {
   SmallWorld city = small_city(6, 206);
-  for (cv::Mat& texture : city.scene.textures) texture = noise_image(256, 207);
+  city.scene.textures = std::vector<cv::Mat>(city.scene.textures.size(), noise_image(256, 207));
   Renderer renderer = make_renderer(city.scene);
   std::mt19937_64 random(208);
   double of_pinhole = 0.0, of_fisheye = 0.0;
