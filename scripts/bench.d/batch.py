@@ -1,8 +1,10 @@
-"""Speedup of a batch with two workers, and the CPU time of the batch itself, each next to its floor.
+"""Speedup of a batch with two workers, the CPU time of batches themselves and of the start of a flight, next to their floors.
 
 The floor of the speedup is that of two copies of a loop without memory traffic. If two cores share execution units or are
 used by other processes, their speedup is below 2, and a batch cannot exceed it. The four kinds of runs are interleaved, so
 that other load affects all of them equally. The program prints medians and the share of the machine that other processes used.
+
+The floor of the start of a flight is `hedgehop --version`, which only loads the libraries.
 """
 
 import os
@@ -14,6 +16,8 @@ import time
 
 ROUNDS = 5
 FLIGHTS = 6
+CITY, CONTROL = "configs/garratt2009_city_0_light.yaml", "configs/andert2007_control.yaml"
+OWN = {"12 city flights of 10 s": (CITY, 10, 12), "60 control flights of 0.1 s": (CONTROL, 0.1, 60)}  # scenario, s, flights
 LOOP = """
 int main(int, char** words) {
   unsigned long x = 1, n = 0;
@@ -81,27 +85,49 @@ def both(command):
     first.wait(), second.wait()
 
 
+def cpu_of_s(command):
+    before = cpu_s("children")
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return cpu_s("children") - before
+
+
+def print_row(figure, here, floor, ratio="-"):
+    print(f"{figure:52} {here:>10} {floor:>10} {ratio:>7}", flush=True)
+
+
+def print_starts(root, hedgehop, out):
+    """CPU time of the shortest flight of a worker, which is its start, next to that of the program."""
+    program = statistics.median(cpu_of_s([hedgehop, "--version"]) for _ in range(ROUNDS))
+    for name, scenario, renderer in (("city", CITY, "tiles"), ("city", CITY, "osmesa"), ("control", CONTROL, "tiles")):
+        command = [hedgehop, "run", root / scenario, "--renderer", renderer, "--set", "duration=0.1", "--no-video",
+                   "--no-report", "--out", out / "start"]
+        start = statistics.median(cpu_of_s(command) for _ in range(ROUNDS))
+        print_row(f"flight of 0.1 s, {name}, {renderer}: CPU time, ms", f"{1e3 * start:.0f}", f"{1e3 * program:.0f}",
+                  f"{start / program:.3g}")
+
+
 def run(root, hedgehop):
     out = root / "out" / "bench" / "batch"
     loop = loop_program(out)
-    counts = []
 
-    def batch(workers):
-        command = [hedgehop, "batch", root / "configs/garratt2009_city_0_light.yaml", "--seeds", f"1:{FLIGHTS}", "--set",
-                   "duration=10", "-j", str(workers), "--out", out / "flights"]
-        counts.append(own_and_flights_s(command))
+    def fly(scenario, seconds, flights, workers):
+        command = [hedgehop, "batch", root / scenario, "--seeds", f"1:{flights}", "--set", f"duration={seconds}", "-j",
+                   str(workers), "--out", out / "flights"]
+        own, of_flights = own_and_flights_s(command)
         shutil.rmtree(out / "flights")
+        return own / of_flights
 
     shares = Shares()
     for _ in range(ROUNDS):
-        shares.take("batch 1", lambda: batch(1))
+        shares.take("batch 1", lambda: fly(CITY, 10, FLIGHTS, 1))
         shares.take("loop 1", lambda: subprocess.run(loop, check=True))
-        shares.take("batch 2", lambda: batch(2))
+        shares.take("batch 2", lambda: fly(CITY, 10, FLIGHTS, 2))
         shares.take("loop 2", lambda: both(loop))
     gain, floor = shares.median("batch 1") / shares.median("batch 2"), 2.0 * shares.median("loop 1") / shares.median("loop 2")
-    own = statistics.median(own / flights for own, flights in counts)
     print(f"\n{FLIGHTS} flights of 10 s, medians of {ROUNDS} rounds; other processes used {statistics.median(shares.others):.0%} of the "
           f"machine, at most {max(shares.others):.0%}")
-    print(f"{'figure':52} {'here':>10} {'floor':>10} {'ratio':>7}")
-    print(f"{'speedup, 2 workers':52} {gain:10.2f} {floor:10.2f} {gain / floor:7.2f}")
-    print(f"{'CPU time of the batch itself / flights':52} {own:10.2%} {0:10.0%} {'-':>7}", flush=True)
+    print_row("figure", "here", "floor", "ratio")
+    print_row("speedup, 2 workers", f"{gain:.2f}", f"{floor:.2f}", f"{gain / floor:.2f}")
+    for name, (scenario, seconds, flights) in OWN.items():
+        print_row(f"CPU time of the batch itself: {name}", f"{fly(scenario, seconds, flights, 1):.2%}", "0%")
+    print_starts(root, hedgehop, out)
