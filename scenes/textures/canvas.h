@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <opencv2/core.hpp>
+#include <vector>
 
+#include "scenes/textures/fractal_noise.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes::textures {
@@ -13,27 +16,13 @@ struct Area {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 
-/// Spectrum of a noise image: `octaves` layers of value noise. The first lattice has `cells_u` x `cells_v` cells; each
-/// further layer doubles the number of cells in both directions and multiplies the amplitude by `gain`.
-struct NoiseShape {
-  int cells_u = 4;
-  int cells_v = 4;
-  int octaves = 7;
-  double gain = 0.75;
-};
-
-/// Returns tileable noise with mean 0 and standard deviation 1. Lattices finer than the pixels are omitted.
-cv::Mat1f fractal_noise(int size_px, const NoiseShape& shape, Random& random);
-
 /// A square tileable image to paint on. Shapes wrap around the edges and are antialiased. Lengths are in m on the
 /// surface, so that an image has the same appearance at every resolution.
 class Canvas {
  public:
   Canvas(int size_px, double tile_m, const Color& background);
-  Canvas(const Canvas& other) : tile_m_(other.tile_m_), pixels_(other.pixels_.clone()) {}
-  Canvas& operator=(const Canvas&) = delete;
 
-  int size_px() const { return pixels_.rows; }
+  int size_px() const { return size_px_; }
   double tile_m() const { return tile_m_; }
 
   void fill(const Area& area, const Color& color, double opacity = 1.0);
@@ -52,13 +41,15 @@ class Canvas {
   /// Blends in `color` at pixels whose noise exceeds `threshold`. The opacity rises to `opacity` over `softness`.
   void stain(const cv::Mat1f& noise, double threshold, double softness, const Color& color, double opacity);
 
-  /// Sets the color of each pixel. @param color_at  (double x, double y), in m, -> color.
+  /// Returns the position of the center of each column or row, m.
+  std::vector<double> pixel_centers_m() const;
+
+  /// Sets the color of each pixel. @param color_at  (size_t row, size_t column) -> color.
   template <class ColorAt>
   void paint(const ColorAt& color_at) {
-    const double m_per_px = tile_m_ / size_px();
-    for (int r = 0; r < size_px(); ++r) {
-      Color* row = pixels_[r];
-      for (int c = 0; c < size_px(); ++c) row[c] = color_at((c + 0.5) * m_per_px, (r + 0.5) * m_per_px);
+    const auto size = static_cast<size_t>(size_px_);
+    for (size_t r = 0; r < size; ++r) {
+      for (size_t c = 0; c < size; ++c) pixels_[r * size + c] = pixel_of(color_at(r, c));
     }
   }
 
@@ -66,11 +57,24 @@ class Canvas {
   cv::Mat finished() const;
 
  private:
-  template <class OpacityAt>
-  void blend(const Area& area, const Color& color, const OpacityAt& opacity_at);
+  using Pixel [[gnu::vector_size(16)]] = float;  ///< R, G, B and 0: one operation works on all channels
 
+  static Pixel pixel_of(const Color& color) { return Pixel{color[0], color[1], color[2], 0.0f}; }
+  Pixel* row(int r) { return pixels_.data() + static_cast<ptrdiff_t>(r) * size_px_; }
+
+  /// The part of a row of pixels that an area covers.
+  struct Covered {
+    double left, right;  ///< px
+    double rows;         ///< share of the row's height, 0..1
+  };
+  template <class BlendRow>
+  void blend(const Area& area, const BlendRow& blend_row);
+  template <class OpacityAt>
+  void blend_even(const Area& area, const Color& color, const OpacityAt& opacity_at);
+
+  int size_px_;
   double tile_m_;
-  cv::Mat3f pixels_;
+  std::vector<Pixel> pixels_;
 };
 
 /// Returns the color with each channel multiplied by `factor`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenes/textures/surface_patterns.h"
 
@@ -176,7 +177,7 @@ std::vector<cv::Mat> paint_facades(const FacadeStyle& style, int size_px, int va
   std::vector<cv::Mat> images;
   for (int k = 0; k < variants; ++k) {
     Random random(derived_seed(seed, static_cast<uint64_t>(k) + 1));
-    Canvas canvas = wall;
+    Canvas canvas = k + 1 < variants ? wall : std::move(wall);
     for (int row = 0; row < style.floors; ++row) {
       for (int column = 0; column < style.bays; ++column) {
         paint_cell(canvas, style, {column * style.bay_m(), row * style.floor_m(), style.bay_m(), style.floor_m()},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scenes/textures/canvas.h"
 #include "scenes/textures/surface_patterns.h"
@@ -121,7 +122,7 @@ std::vector<cv::Mat> paint_room_walls(WallPaper paper, int size_px, int variants
   std::vector<cv::Mat> images;
   for (int k = 0; k < variants; ++k) {
     Random random(derived_seed(seed, static_cast<uint64_t>(k) + 1));
-    Canvas canvas = wall;
+    Canvas canvas = k + 1 < variants ? wall : std::move(wall);
     for (double left : {0.2, 2.2}) {  // two objects side by side, 1 to 3 m above the floor
       const double width = uniform(random, 0.7, 1.4), height = uniform(random, 0.6, 1.1);
       const Area thing{left + uniform(random, 0.0, 1.6 - width), uniform(random, 1.4, 2.4 - 0.5 * height), width,

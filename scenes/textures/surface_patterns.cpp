@@ -1,6 +1,7 @@
 #include "scenes/textures/surface_patterns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -23,14 +24,26 @@ void paint_masonry(Canvas& canvas, const Masonry& masonry, const Color& block, c
 
   const double pixel_m = canvas.tile_m() / canvas.size_px();
   const double width_m = canvas.tile_m() / masonry.columns, height_m = canvas.tile_m() / masonry.rows;
-  canvas.paint([&](double x, double y) {
-    const int row = std::min(static_cast<int>(y / height_m), masonry.rows - 1);
-    const double shifted = x + (row % 2 == 1 ? masonry.bond * width_m : 0.0);
-    const int column = static_cast<int>(shifted / width_m) % masonry.columns;
-    const Color& tone = tones[static_cast<size_t>(row * masonry.columns + column)];
-    const float in_joint = std::max(joint_share(shifted, pixel_m, width_m, masonry.joint_m),
-                                    joint_share(y, pixel_m, height_m, masonry.joint_m));
-    return tone + (joint - tone) * in_joint;
+  const std::vector<double> centers_m = canvas.pixel_centers_m();
+  struct Column {
+    int block;
+    float in_joint;
+  };
+  std::array<std::vector<Column>, 2> columns;  // of the pixels in even and odd rows of blocks
+  for (size_t odd = 0; odd < 2; ++odd) {
+    for (const double x : centers_m) {
+      const double shifted = x + (odd == 1 ? masonry.bond * width_m : 0.0);
+      columns[odd].push_back({static_cast<int>(shifted / width_m) % masonry.columns,
+                              joint_share(shifted, pixel_m, width_m, masonry.joint_m)});
+    }
+  }
+  std::vector<float> row_in_joint;
+  for (const double y : centers_m) row_in_joint.push_back(joint_share(y, pixel_m, height_m, masonry.joint_m));
+  canvas.paint([&](size_t r, size_t c) {
+    const int row = std::min(static_cast<int>(centers_m[r] / height_m), masonry.rows - 1);
+    const Column& column = columns[row % 2 == 1 ? 1 : 0][c];
+    const Color& tone = tones[static_cast<size_t>(row * masonry.columns + column.block)];
+    return tone + (joint - tone) * std::max(column.in_joint, row_in_joint[r]);
   });
 }
 

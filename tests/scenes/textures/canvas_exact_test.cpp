@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/textures/canvas.h"
+#include "scenes/textures/surface_patterns.h"
 
 /// Compares every value with the same arithmetic pixel by pixel, because textures and flights must not change.
 namespace hedgehop::scenes::textures {
@@ -99,6 +100,90 @@ TEST(CanvasExact, ShadeStainAndDiscEqualAPixelByPixelComputation) {
         const double inside = std::clamp((radius - away_m) * kPxPerM + 0.5, 0.0, 1.0);
         pixel += (oil - pixel) * static_cast<float>(0.8 * inside);
         ASSERT_EQ(image.at<cv::Vec3b>(r, c), cv::Vec3b(rounded(pixel[0]), rounded(pixel[1]), rounded(pixel[2])));
+      }
+    }
+  }
+}
+
+/// Returns the share of [i, i + 1) that [low, high) covers.
+double covered(int i, double low, double high) {
+  return std::clamp(std::min(high, i + 1.0) - std::max(low, static_cast<double>(i)), 0.0, 1.0);
+}
+
+int wrapped(int i) { return ((i % 64) + 64) % 64; }
+
+TEST(CanvasExact, FillAndFadeEqualAPixelByPixelComputation) {
+  constexpr int kSizePx = 64;
+  constexpr double kTileM = 2.0, kPxPerM = kSizePx / kTileM;
+  const Color ground{0.4f, 0.5f, 0.6f}, rust{0.7f, 0.2f, 0.1f};
+  Random random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    // Areas across the edges of the image, wider than it, thinner than a pixel and on its grid.
+    const double grid = trial % 4 == 0 ? 1.0 / kPxPerM : 1e-6;
+    const auto on_grid = [&](double length_m) { return std::round(length_m / grid) * grid; };
+    const double width_m = trial % 3 == 0 ? uniform(random, 0.0, 0.04) : uniform(random, 0.0, 2.5);
+    const Area area{on_grid(uniform(random, -1.0, 2.0)), on_grid(uniform(random, -1.0, 2.0)), on_grid(width_m),
+                    on_grid(uniform(random, 0.0, 2.0))};
+    const double upper = uniform(random, 0.0, 1.0), lower = trial % 2 == 0 ? upper : uniform(random, 0.0, 1.0);
+    Canvas canvas(kSizePx, kTileM, ground);
+    if (trial % 2 == 0) {
+      canvas.fill(area, rust, upper);
+    } else {
+      canvas.fade(area, rust, upper, lower);
+    }
+
+    cv::Mat3f plain(kSizePx, kSizePx, ground);
+    const double left = area.left * kPxPerM, right = left + area.width * kPxPerM;
+    const double top = area.top * kPxPerM, bottom = top + area.height * kPxPerM;
+    for (int r = static_cast<int>(std::floor(top)); r < bottom; ++r) {
+      for (int c = static_cast<int>(std::floor(left)); c < right; ++c) {
+        const double way = std::clamp(((r + 0.5) / kPxPerM - area.top) / area.height, 0.0, 1.0);
+        const auto opacity = static_cast<float>(trial % 2 == 0 ? upper : upper + (lower - upper) * way);
+        const auto edge = static_cast<float>(covered(r, top, bottom) * covered(c, left, right));
+        Color& pixel = plain(wrapped(r), wrapped(c));
+        pixel += (rust - pixel) * (edge * opacity);
+      }
+    }
+    const cv::Mat3b image = canvas.finished();
+    for (int r = 0; r < kSizePx; ++r) {
+      for (int c = 0; c < kSizePx; ++c) {
+        const Color& pixel = plain(r, c);
+        ASSERT_EQ(image(r, c), cv::Vec3b(rounded(pixel[0]), rounded(pixel[1]), rounded(pixel[2]))) << trial;
+      }
+    }
+  }
+}
+
+/// Returns the share of a pixel covered by the joints at the multiples of a period.
+float in_joint(double at_m, double pixel_m, double period_m, double joint_m) {
+  const double from_joint_m = std::abs(at_m - period_m * std::round(at_m / period_m));
+  const double overlap_m = 0.5 * (joint_m + pixel_m) - from_joint_m;
+  return static_cast<float>(std::clamp(overlap_m / pixel_m, 0.0, std::min(1.0, joint_m / pixel_m)));
+}
+
+TEST(CanvasExact, MasonryHasTheToneAndJointOfEachPixel) {
+  constexpr int kSizePx = 96;
+  constexpr double kTileM = 3.0, kPixelM = kTileM / kSizePx;
+  const Color block{0.6f, 0.3f, 0.2f}, joint{0.7f, 0.7f, 0.6f};
+  for (const Masonry& masonry : {Masonry{7, 9, 0.05, 0.3, 0.5}, Masonry{32, 4, 0.008, 0.2, 0.0}}) {
+    Canvas canvas(kSizePx, kTileM, {});
+    Random random(5), again(5);
+    paint_masonry(canvas, masonry, block, joint, random);
+    std::vector<Color> tones;
+    for (int k = 0; k < masonry.rows * masonry.columns; ++k) tones.push_back(varied(block, masonry.spread, again));
+    const double width_m = kTileM / masonry.columns, height_m = kTileM / masonry.rows;
+    const cv::Mat3b image = canvas.finished();
+    for (int r = 0; r < kSizePx; ++r) {
+      for (int c = 0; c < kSizePx; ++c) {
+        const double x = (c + 0.5) * kPixelM, y = (r + 0.5) * kPixelM;
+        const int row = std::min(static_cast<int>(y / height_m), masonry.rows - 1);
+        const double shifted = x + (row % 2 == 1 ? masonry.bond * width_m : 0.0);
+        const int column = static_cast<int>(shifted / width_m) % masonry.columns;
+        const Color& tone = tones[static_cast<size_t>(row * masonry.columns + column)];
+        const float share = std::max(in_joint(shifted, kPixelM, width_m, masonry.joint_m),
+                                     in_joint(y, kPixelM, height_m, masonry.joint_m));
+        const Color pixel = tone + (joint - tone) * share;
+        ASSERT_EQ(image(r, c), cv::Vec3b(rounded(pixel[0]), rounded(pixel[1]), rounded(pixel[2])));
       }
     }
   }
