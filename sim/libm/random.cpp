@@ -1,5 +1,6 @@
 #include "sim/libm/random.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -28,6 +29,43 @@ double ratio(const Coefficients& above, const Coefficients& below, double x) {
 }
 
 }  // namespace
+
+Random::Random(uint64_t seed) {
+  state_[0] = seed;
+  for (size_t i = 1; i < kNumbers; ++i) {
+    state_[i] = 6364136223846793005u * (state_[i - 1] ^ (state_[i - 1] >> 62)) + i;
+  }
+}
+
+void Random::renew() {
+  constexpr size_t kDistance = 156;
+  constexpr uint64_t kLower = (uint64_t{1} << 31) - 1, kUpper = ~kLower;
+  const auto twisted = [](uint64_t upper, uint64_t lower) {
+    const uint64_t joined = (upper & kUpper) | (lower & kLower);
+    return (joined >> 1) ^ (-(joined & 1) & 0xb5026f5aa96619e9u);
+  };
+  uint64_t* const x = state_.data();
+  for (size_t i = 0; i < kNumbers - kDistance; ++i) x[i] = x[i + kDistance] ^ twisted(x[i], x[i + 1]);
+  for (size_t i = kNumbers - kDistance; i + 1 < kNumbers; ++i) {
+    x[i] = x[i + kDistance - kNumbers] ^ twisted(x[i], x[i + 1]);
+  }
+  x[kNumbers - 1] = x[kDistance - 1] ^ twisted(x[kNumbers - 1], x[0]);
+  for (size_t i = 0; i < kNumbers; ++i) {
+    uint64_t y = x[i];
+    y ^= (y >> 29) & 0x5555555555555555u;
+    y ^= (y << 17) & 0x71d67fffeda60000u;
+    y ^= (y << 37) & 0xfff7eee000000000u;
+    numbers_[i] = y ^ (y >> 43);
+  }
+  next_ = 0;
+}
+
+std::span<const uint64_t> Random::take(size_t count) {
+  if (next_ == kNumbers) renew();
+  const size_t first = next_;
+  next_ = std::min(kNumbers, first + count);
+  return std::span(numbers_).subspan(first, next_ - first);
+}
 
 void Fnv1a::add(std::span<const double> values) {
   for (const double value : values) {

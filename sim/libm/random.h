@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -8,8 +11,33 @@
 /// Random numbers with equal bits on every platform and standard library.
 namespace hedgehop {
 
-/// Generator of every random stream.
-using Random = std::mt19937_64;
+/// Generator of every random stream: the Mersenne Twister of 64 bits, with the numbers of std::mt19937_64. It makes 312
+/// numbers at a time in loops that compilers vectorize.
+class Random {
+ public:
+  using result_type = uint64_t;
+
+  explicit Random(uint64_t seed);
+
+  static constexpr uint64_t min() { return 0; }
+  static constexpr uint64_t max() { return ~uint64_t{0}; }
+
+  uint64_t operator()() {
+    if (next_ == kNumbers) renew();
+    return numbers_[next_++];
+  }
+
+  /// Returns the next numbers, as many calls would: at most `count` and, unless count is 0, at least one. They are
+  /// valid until the next call.
+  std::span<const uint64_t> take(size_t count);
+
+ private:
+  static constexpr size_t kNumbers = 312;
+  void renew();
+
+  std::array<uint64_t, kNumbers> state_, numbers_;
+  size_t next_ = kNumbers;
+};
 
 /// Name of the stream that the scene of a flight is generated from.
 inline constexpr std::string_view kSceneStream = "scene";
@@ -48,17 +76,21 @@ uint64_t stream_seed(uint64_t run_seed, std::string_view stream_name);
 /// Returns the number in [0, 1) that the upper 53 bits of `bits` stand for.
 constexpr double unit_interval(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
+/// Random, or std::mt19937_64 in tests.
+template <class T>
+concept Generator64 = std::same_as<T, Random> || std::same_as<T, std::mt19937_64>;
+
 /// Returns a uniform number in [0, 1), of 53 random bits.
-inline double uniform(Random& random) { return unit_interval(random()); }
+double uniform(Generator64 auto& random) { return unit_interval(random()); }
 
 /// Returns a uniform number in [low, high), of 53 random bits.
-inline double uniform(Random& random, double low, double high) { return low + (high - low) * uniform(random); }
+double uniform(Generator64 auto& random, double low, double high) { return low + (high - low) * uniform(random); }
 
 /// Returns a uniform integer in [0, count). @param count  small compared with 2^53.
-inline int uniform_index(Random& random, int count) { return static_cast<int>(uniform(random, 0.0, count)); }
+int uniform_index(Generator64 auto& random, int count) { return static_cast<int>(uniform(random, 0.0, count)); }
 
 /// Returns true with probability `probability`, 0..1.
-inline bool chance(Random& random, double probability) { return uniform(random) < probability; }
+bool chance(Generator64 auto& random, double probability) { return uniform(random) < probability; }
 
 /// Draws standard normal numbers by the polar method of Marsaglia, two per pair of uniform numbers. It gives the bits
 /// of libstdc++'s std::normal_distribution<double> for the same generator.

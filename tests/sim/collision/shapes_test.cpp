@@ -10,6 +10,7 @@
 #include "scenes/mesh/mesh_builder.h"
 #include "sim/collision/convex_body.h"
 #include "sim/collision/proximity.h"
+#include "sim/libm/random.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -26,17 +27,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Isometry3d placed_at(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
 
-Vector3d random_vector(std::mt19937_64& random, double below) {
+Vector3d random_vector(Random& random, double below) {
   std::uniform_real_distribution<double> uniform(-below, below);
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-Isometry3d random_pose(std::mt19937_64& random, double below) {
+Isometry3d random_pose(Random& random, double below) {
   const Eigen::Quaterniond q(Eigen::Vector4d(random_vector(random, 1.0).homogeneous()));
   return Eigen::Translation3d(random_vector(random, below)) * q.normalized();
 }
 
-ConvexBody random_body(std::mt19937_64& random) {
+ConvexBody random_body(Random& random) {
   std::uniform_real_distribution<double> size(0.1, 1.5);
   const double r = size(random);
   switch (random() % 3) {
@@ -63,7 +64,7 @@ scenes::mesh::Polyhedron box_faces(const Vector3d& half_m) {
 
 TEST(Spheres, SeparationIsCenterDistanceMinusRadii) {
   const ConvexBody ball(Shape::sphere, Vector3d::Constant(0.7)), marble(Shape::sphere, Vector3d::Constant(0.2));
-  std::mt19937_64 random(1);
+  Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = random_vector(random, 3.0);
     const Separation found = separate(PlacedBody(ball, placed_at(Vector3d::Zero())), PlacedBody(marble, placed_at(p)));
@@ -72,7 +73,7 @@ TEST(Spheres, SeparationIsCenterDistanceMinusRadii) {
 }
 
 TEST(Spheres, SeparationFromABodyMatchesSamples) {
-  std::mt19937_64 random(2);
+  Random random(2);
   for (int i = 0; i < 300; ++i) {
     const ConvexBody body = random_body(random), ball(Shape::sphere, Vector3d::Constant(0.5));
     const PlacedBody placed(body, random_pose(random, 1.0)), sphere(ball, random_pose(random, 4.0));
@@ -94,7 +95,7 @@ TEST(Spheres, DepthInsideABoxIsTheDistanceToItsSurface) {
 }
 
 TEST(Polyhedra, OfABoxEqualTheBox) {
-  std::mt19937_64 random(3);
+  Random random(3);
   int apart = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vector3d half_m = Vector3d(1, 1, 1) + random_vector(random, 0.9);
@@ -114,7 +115,7 @@ TEST(Polyhedra, OfABoxEqualTheBox) {
 }
 
 TEST(Polyhedra, NearestPointAgreesWithManySamples) {
-  std::mt19937_64 random(4);
+  Random random(4);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (int i = 0; i < 100; ++i) {
     const ConvexBody lump(scenes::mesh::convex_lump(24, 0.4, random));
@@ -149,7 +150,7 @@ TEST(Polyhedra, SingleTrianglesAreFlat) {
 }
 
 TEST(Rays, EnterABodyAtZeroDistanceFromIt) {
-  std::mt19937_64 random(5);
+  Random random(5);
   int hits = 0;
   for (int i = 0; i < 10000; ++i) {
     const ConvexBody body = i % 4 ? random_body(random) : ConvexBody(Shape::sphere, Vector3d::Constant(0.8));
@@ -193,7 +194,7 @@ TEST(Movers, CollideAtTheirPositionAtThatTime) {
       scene_of({scenes::mesh::solid_of("wall", Eigen::AlignedBox3d(Vector3d(-1, 30, -9), Vector3d(1, 31, 0)))});
   scene.movers = {mover};
   CollisionWorld world(scene, small_helicopter());
-  std::mt19937_64 random(6);
+  Random random(6);
   std::uniform_real_distribution<double> time(0.0, 15.0);
   for (int i = 0; i < 500; ++i) {
     const double t_s = time(random), north_m = std::max(10.0 - 2.0 * t_s, -10.0);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <span>
 #include <string>
 
 namespace hedgehop {
@@ -75,6 +76,30 @@ TEST(Fnv1aHash, HashesTheBytesOfDoublesInTheOrderOfMemory) {
   EXPECT_EQ(of_values.value(), of_bytes.value());
 }
 
+TEST(Random, HasTheNumbersOfTheStandardLibrary) {
+  for (const uint64_t seed : {uint64_t{0}, uint64_t{5489}, std::numeric_limits<uint64_t>::max()}) {
+    Random random(seed);
+    std::mt19937_64 generator(seed);
+    for (int i = 0; i < 10'000; ++i) ASSERT_EQ(random(), generator()) << i;
+  }
+}
+
+TEST(Random, TakesTheNumbersOfSingleCalls) {
+  Random random(6);
+  std::mt19937_64 generator(6);
+  for (size_t count = 1; count < 1000; ++count) {
+    size_t taken = 0;
+    while (taken < count) {
+      const std::span<const uint64_t> numbers = random.take(count - taken);
+      ASSERT_GT(numbers.size(), 0u);
+      for (const uint64_t number : numbers) ASSERT_EQ(number, generator());
+      taken += numbers.size();
+    }
+    ASSERT_EQ(taken, count);
+    ASSERT_EQ(random(), generator());
+  }
+}
+
 TEST(Uniform, TakesTheUpper53Bits) {
   Random random(3);
   std::mt19937_64 generator(3);
@@ -118,7 +143,7 @@ TEST(NormalDistribution, HasTheBitsOfTheStandardLibrary) {
     for (size_t i = 0; i < length; ++i) {
       ASSERT_EQ(std::bit_cast<uint64_t>(normal(random)), std::bit_cast<uint64_t>(expected(generator))) << seed;
     }
-    EXPECT_EQ(random, generator) << "as many numbers are drawn";
+    EXPECT_EQ(random(), generator()) << "as many numbers are drawn";
   }
 }
 
