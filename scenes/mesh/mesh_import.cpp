@@ -14,7 +14,6 @@
 #include "scenes/mesh/mesh_builder.h"
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/polyhedron.h"
-#include "scenes/mesh/texture_image.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"

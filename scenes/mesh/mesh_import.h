@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,5 +52,10 @@ void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
 /// Returns all files that an import reads: the mesh, its materials, buffers and images. Images embedded in another file
 /// are not listed. @throws std::invalid_argument if the mesh cannot be read.
 std::set<std::filesystem::path> mesh_files(const std::filesystem::path& mesh);
+
+/// Returns the decoded texture of a mesh: PNG of any depth, JPEG, or PPM and PGM (P2, P3, P5, P6), without
+/// transparency.
+/// @return CV_8UC3, RGB; empty if the format is another, the data is invalid, or it has more than 64 million pixels.
+cv::Mat decode_texture(std::span<const uint8_t> bytes);
 
 }  // namespace hedgehop::scenes::mesh

@@ -1,4 +1,4 @@
-#include "scenes/mesh/texture_image.h"
+#include "scenes/mesh/mesh_import.h"
 
 #include <png.h>
 #include <turbojpeg.h>

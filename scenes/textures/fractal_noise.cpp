@@ -1,4 +1,4 @@
-#include "scenes/textures/fractal_noise.h"
+#include "scenes/textures/canvas.h"
 
 #include <algorithm>
 #include <bit>

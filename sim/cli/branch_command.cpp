@@ -8,7 +8,6 @@
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/fly_orders.h"
-#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"

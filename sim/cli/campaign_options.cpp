@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "sim/cli/commands.h"
-#include "sim/cli/number_options.h"
 
 namespace hedgehop::sim::cli {
 namespace {

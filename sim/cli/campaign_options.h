@@ -15,4 +15,14 @@ inline void add_overrides(CLI::App& command, std::vector<std::string>& overrides
 /// Declares the commands that fly many scenarios. Parsing stores the call of the selected command in `chosen`.
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen);
 
+/// Accepts whole numbers from 0 to 2^64 - 1; "010" is ten.
+CLI::Validator whole_number();
+
+/// Accepts any finite number.
+CLI::Validator number();
+
+/// Require a number >= 0 (not_negative) or > 0 (positive).
+CLI::Validator not_negative();
+CLI::Validator positive();
+
 }  // namespace hedgehop::sim::cli

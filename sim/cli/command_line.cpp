@@ -13,8 +13,6 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/features.h"
 #include "sim/cli/manual.h"
-#include "sim/cli/misspelling.h"
-#include "sim/cli/number_options.h"
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/drawing.h"

@@ -4,7 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "sim/scenario/flight_parts.h"
+
+namespace CLI {
+class App;
+}
 
 /// The commands of the command line. Results go to standard output, progress and warnings to standard error. Each
 /// command returns the exit status of the process: 0 all checks hold, 1 a check fails, 4 undecided. Errors are thrown;
@@ -206,5 +213,23 @@ int report(const ReportOptions& options);
 
 /// Runs the command line and prints errors to standard error. @return the exit status of the process.
 int run_command_line(int argc, char** argv);
+
+/// Returns the scenario of a command line with overrides and seed applied, and its parts. Throws InputError.
+inline LoadedScenario load(const ScenarioOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.renderer.empty()) overrides.push_back("drawing.renderer=" + options.renderer);
+  return load_flight(options.file, overrides, options.seed);
+}
+
+/// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the
+/// working folder, otherwise from those of the installed program. Throws InputError that names the folder if there are
+/// no such files.
+std::vector<std::filesystem::path> shipped_files(const std::string& folder);
+
+/// Returns the message for a first word that is not a command; empty if it is a command or an option.
+std::string unknown_command(const CLI::App& app, std::string_view word);
+
+/// Returns the message for the first unknown option of the parsed command; empty if there is none.
+std::string unknown_option(const CLI::App& app);
 
 }  // namespace hedgehop::sim::cli

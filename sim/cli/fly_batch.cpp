@@ -4,17 +4,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/junit.h"
-#include "sim/cli/campaign_page.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
+#include "sim/pages/campaign_report.h"
 #include "sim/pages/leaderboard_page.h"
 
 namespace hedgehop::sim::cli {
@@ -114,6 +115,23 @@ std::vector<FlightRecord> fly(const BatchRun& run, std::optional<SequentialCount
 }
 
 }  // namespace
+
+void print_failed(const std::vector<FlightRecord>& records) {
+  for (const FlightRecord& record : records) {
+    if (record.status != FlightRecord::Status::failed) continue;
+    fmt::print("FAIL  {}: {}\n      {}\n", record.order.id, record.cause, rerun_command(record.order));
+  }
+}
+
+void write_campaign_page(const std::filesystem::path& folder) {
+  const std::string page = (folder / "report.html").string();
+  try {
+    write_campaign_report(folder, std::nullopt);
+    fmt::print("written: {}\n", page);
+  } catch (const std::exception& error) {
+    notice(fmt::format("{}: not written: {}\n", page, error.what()));
+  }
+}
 
 std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyOptions& options,
                                     Interruption& interruption, CampaignProgress& progress) {

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/fly_orders.h"
+#include "sim/batch/record.h"
 #include "sim/cli/progress.h"
 #include "sim/evidence/conduct.h"
 #include "sim/evidence/sequential_count.h"
@@ -31,5 +33,12 @@ std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyO
 /// @return the exit status: 0 holds, 1 fails, 2 a file is bad, 4 undecided, 128 and the signal's number when
 /// interrupted.
 int fly_batch(BatchRun run);
+
+/// Prints the cause of each flight without a result, and the command that repeats it.
+void print_failed(const std::vector<FlightRecord>& records);
+
+/// Writes report.html of a batch or sweep and prints its path. If the page cannot be written, prints the error to
+/// standard error; the tables are not affected.
+void write_campaign_page(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim::cli

@@ -1,7 +1,8 @@
-#include "sim/cli/misspelling.h"
+#include "sim/cli/commands.h"
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <vector>
 

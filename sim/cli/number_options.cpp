@@ -1,4 +1,4 @@
-#include "sim/cli/number_options.h"
+#include "sim/cli/campaign_options.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "sim/cli/commands.h"
-#include "sim/cli/load.h"
 #include "sim/config/whole_file.h"
 #include "sim/record/image_file.h"
 #include "sim/render/image_colors.h"

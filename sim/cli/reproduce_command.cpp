@@ -7,13 +7,11 @@
 #include <set>
 
 #include "sim/batch/fly_orders.h"
-#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
-#include "sim/cli/shipped_files.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/pages/report_page.h"

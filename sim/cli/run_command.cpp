@@ -12,7 +12,6 @@
 #include "sim/batch/record.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
-#include "sim/cli/load.h"
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"

@@ -1,4 +1,4 @@
-#include "sim/cli/shipped_files.h"
+#include "sim/cli/commands.h"
 
 #include <fmt/format.h>
 

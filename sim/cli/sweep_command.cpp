@@ -7,7 +7,6 @@
 
 #include "sim/batch/junit.h"
 #include "sim/batch/seeds.h"
-#include "sim/cli/campaign_page.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"

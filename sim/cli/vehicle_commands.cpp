@@ -17,7 +17,6 @@
 #include "dynamics/vehicle.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
-#include "sim/cli/shipped_files.h"
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"

@@ -9,7 +9,7 @@
 #include "sim/batch/statistics.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/flight/build.h"
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
 namespace {

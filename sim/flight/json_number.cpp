@@ -1,4 +1,4 @@
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -114,5 +115,13 @@ class JsonReader {
   const nlohmann::ordered_json& object_;
   std::string path_;
 };
+
+nlohmann::ordered_json json_number(double value);
+
+/// Rounded to five significant figures.
+nlohmann::ordered_json brief(double value);
+
+/// Rounded to three decimals.
+nlohmann::ordered_json milli(double value);
 
 }  // namespace hedgehop::sim

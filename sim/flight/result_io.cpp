@@ -10,7 +10,6 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
-#include "sim/flight/json_number.h"
 #include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {

@@ -15,7 +15,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 #include "sim/flight/result_io.h"
 #include "sim/pages/report_page.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/plan.h"
 #include "sim/record/table.h"

@@ -14,7 +14,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
 namespace {

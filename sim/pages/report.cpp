@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "sim/config/whole_file.h"
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"

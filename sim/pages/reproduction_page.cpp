@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/plan.h"

@@ -1,8 +1,8 @@
-#include "sim/record/map_data.h"
+#include "sim/record/run_record.h"
 
 #include <nlohmann/json.hpp>
 
-#include "sim/flight/json_number.h"
+#include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/config/whole_file.h"
 #include "sim/record/flight_columns.h"
-#include "sim/record/map_data.h"
+#include "sim/record/run_record.h"
 
 namespace hedgehop::sim {
 

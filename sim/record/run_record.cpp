@@ -2,7 +2,6 @@
 
 #include "sim/config/whole_file.h"
 #include "sim/record/flight_columns.h"
-#include "sim/record/map_data.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {

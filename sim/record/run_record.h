@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "scenes/scene.h"
@@ -30,5 +31,10 @@ RunRecord run_record(const Scenario& scenario, const RunInfo& info, const Flight
 /// folder. The scene is generated again from the scenario and its seed. Throws std::runtime_error with the file and the
 /// cause if a file is missing or malformed.
 RunRecord read_run(const std::filesystem::path& run_folder);
+
+/// Returns the map of a module and the truth for map.json and the report. Frame W, m:
+/// `points` {n, e, d, covariance: [nn, ne, ee], true} (covariance seen from above, m^2; true is null if the corners of
+/// the scene are unknown), `corners` {n, e, d, counts, found}, `course` [[n, e]...], `paths` {t, places: [[n, e]...]}.
+nlohmann::ordered_json map_data(const MapRecord& map);
 
 }  // namespace hedgehop::sim

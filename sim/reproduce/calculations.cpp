@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/reproduce/centering_runs.h"
 #include "sim/reproduce/landmark_flights.h"
 
 namespace hedgehop::sim {

@@ -1,4 +1,4 @@
-#include "sim/reproduce/centering_runs.h"
+#include "sim/reproduce/calculations.h"
 
 #include <algorithm>
 #include <cmath>

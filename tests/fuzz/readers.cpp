@@ -13,7 +13,6 @@
 
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
-#include "scenes/mesh/texture_image.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"

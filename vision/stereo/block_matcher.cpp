@@ -5,7 +5,6 @@
 
 #include "vision/flow/wide_integers.h"
 #include "vision/stereo/cost_lanes.h"
-#include "vision/stereo/row_slopes.h"
 
 namespace hedgehop::vision::stereo {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "vision/flow/wide_integers.h"
-#include "vision/stereo/row_slopes.h"
+#include "vision/stereo/cost_lanes.h"
 
 namespace hedgehop::vision::stereo {
 
@@ -73,6 +73,15 @@ HEDGEHOP_WIDE void compare_by_32(const LinePair& slopes, const LinePair& brightn
 }
 
 }  // namespace
+
+HEDGEHOP_WIDE void row_slopes(const uint8_t* above, const uint8_t* here, const uint8_t* below, int width,
+                              uint8_t* slopes) {
+  for (int x = 1; x < width - 1; ++x) {
+    const auto slope = static_cast<int16_t>((here[x + 1] - here[x - 1]) * 2 + above[x + 1] - above[x - 1] +
+                                            below[x + 1] - below[x - 1]);
+    slopes[x] = static_cast<uint8_t>(std::clamp<int16_t>(slope, -kMaxSlope, kMaxSlope) + kMaxSlope);
+  }
+}
 
 PixelCosts::PixelCosts(int width_px, int disparities_px)
     : disparities_(disparities_px),

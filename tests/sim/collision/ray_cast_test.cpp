@@ -18,7 +18,7 @@ constexpr double kReachM = 100.0;
 constexpr double kRayM = 1e-9;
 constexpr double kNow = 0.0;
 
-struct Random {
+struct RandomRays {
   std::mt19937_64 generator;
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator); }
   Vector3d within(const Vector3d& half_m) {
@@ -85,7 +85,7 @@ TEST(RayCast, EndsWithItsReach) {
 
 // The nearest of many boxes, each by its closed form.
 TEST(RayCast, AgreesWithBruteForceOverRandomCities) {
-  Random random{std::mt19937_64(41)};
+  RandomRays random{std::mt19937_64(41)};
   int hits = 0;
   for (int city = 0; city < 20; ++city) {
     std::vector<scenes::Solid> solids;
