@@ -118,8 +118,12 @@ TEST(Renderer, RejectsInvalidScenesAndViews) {
   bad_index.scene.meshes.front().indices.back() = 1000;
   EXPECT_THROW(Renderer{bad_index.scene}, std::invalid_argument);
 
-  SmallWorld two_sizes({plain_image(8, {}), plain_image(16, {})});
-  EXPECT_THROW(Renderer{two_sizes.scene}, std::invalid_argument);
+  scenes::Scene two_sizes;
+  two_sizes.textures.add(2, [] { return std::vector<cv::Mat>{plain_image(512, {}), plain_image(16, {})}; });
+  two_sizes.meshes = SmallWorld().scene.meshes;
+  cv::Mat unseen;
+  EXPECT_THROW(Renderer{two_sizes}.draw({kCamera, Eigen::Isometry3d::Identity(), ImageChannel::grey}, unseen),
+               std::invalid_argument);
 
   SmallWorld no_such_texture;
   no_such_texture.add_quad({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 3);
