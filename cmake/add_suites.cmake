@@ -24,6 +24,11 @@ foreach(suite IN LISTS suites)
 endforeach()
 string(REPLACE ":" ";" LONG "${LONG}")
 foreach(pattern IN LISTS LONG)
+  execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=${pattern}
+                  OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT listed MATCHES "\n  ")  # a test of ctest without tests would pass
+    message(FATAL_ERROR "${PROGRAM} has no test that matches ${pattern}")
+  endif()
   string(APPEND text "add_test([[${PREFIX}${pattern}]] [[${PROGRAM}]] [[--gtest_filter=${pattern}-${OMITTED}]])\n"
                      "set_tests_properties([[${PREFIX}${pattern}]] PROPERTIES LABELS long ENVIRONMENT [[${ENVIRONMENT}]])\n")
 endforeach()

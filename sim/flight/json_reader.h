@@ -116,6 +116,8 @@ class JsonReader {
   std::string path_;
 };
 
+// Numbers for JSON, which has no notation for values that are not finite: null replaces them.
+
 nlohmann::ordered_json json_number(double value);
 
 /// Rounded to five significant figures.
