@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "sim/batch/seeds.h"
@@ -39,9 +41,10 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
   if (!plan) plan = plan_of(batch);
   if (options.min_success) batch.checks.push_back(SuccessRateCheck{*options.min_success, options.confidence});
   if (!options.no_worse_than.empty()) {
-    const std::filesystem::path than = options.no_worse_than;
-    batch.checks.push_back(NoWorseCheck{(std::filesystem::is_directory(than) ? than / "batch.json" : than).string(),
-                                        options.confidence, options.margin});
+    std::filesystem::path than = options.no_worse_than;
+    if (std::filesystem::is_directory(than)) than /= "batch.json";
+    read_batch_json(than);  // refused before any flight
+    batch.checks.push_back(NoWorseCheck{than.string(), options.confidence, options.margin});
   }
   if (batch.orders.empty() || std::ranges::none_of(batch.orders, &std::string::empty, &Order::fault)) {
     throw InputError(

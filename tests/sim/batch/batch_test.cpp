@@ -88,6 +88,7 @@ TEST(Batch, RecordWithAFormerKeyIsRefusedWithItsNewName) {
     const CommandEnd end = folder.hedgehop(command);
     EXPECT_EQ(end.status, 2) << command;
     EXPECT_THAT(end.err, HasSubstr("'groups.least_clearance_m' of an earlier version is now 'min_clearance_m'"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << "no flight before the message";
   }
 }
 
