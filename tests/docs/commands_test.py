@@ -1,7 +1,8 @@
 """Every command of one page (README.md, CONTRIBUTING.md or one of docs/) is right, or, for `tables`, every table has commands.
 
 Commands of `hedgehop` and of the shell run as written, on scenarios cut to a fifth of a second. Commands that build or
-measure are only looked up: the script, the test program and its tests, the preset must exist.
+measure are only looked up: the script, the test program and its tests, the preset must exist. A flight that several
+pages have is flown by the first of them only.
 
 usage: commands_test.py SOURCE BUILD PROGRAM PAGE|tables [NAME=VALUE, of the environment of Python ...]
 """
@@ -77,6 +78,33 @@ def shortened_command(line):
     return line
 
 
+def pages():
+    """The pages that have commands, in the order in which they are searched for equal flights."""
+    names = ["CONTRIBUTING.md", "README.md", *(f"docs/{file.name}" for file in (SOURCE / "docs").glob("*.md"))]
+    return sorted(names, key=lambda name: (name != "docs/getting-started.md", name))  # first the one that flies every paper
+
+
+def single_commands(page):
+    """The commands of a page, each once, in its order; `a; b` are two."""
+    lines = (part for line in commands((SOURCE / page).read_text())
+             for part in (re.split(r"; (?=hedgehop )", line) if line.startswith("hedgehop ") else [line]))
+    return list(dict.fromkeys(lines))
+
+
+def flights(line, text):
+    """The flights of a command, as texts that are equal if they fly alike; none if the text of the page may read their results."""
+    words = shortened_command(line).split("  ")[0].split(" ")
+    if words[:1] != ["hedgehop"] or words[1] not in ("batch", "compare", "reproduce", "run", "sweep") or "--out" in words:
+        return set()
+    if any(f"out/{pathlib.Path(word).stem}" in text for word in words if word.endswith(".yaml")):
+        return set()
+    settings = re.sub(r" (-j [0-9]+|--resume|--seeds 1)(?= |$)", "", " " + " ".join(words[2:])).strip()
+    if words[1] != "reproduce":
+        return {f"{words[1]} {settings}"}
+    papers = [word for word in settings.split() if word != "--quick"]
+    return {f"reproduce {name}" for name in papers or [file.stem for file in (SOURCE / "configs/papers").glob("*.yaml")]}
+
+
 class Commands(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -146,8 +174,13 @@ class Commands(unittest.TestCase):
             (self.folder / name).write_text(text)
         for line in PREPARATION.get(page, []):
             self.run_line(line)
-        lines = list(dict.fromkeys(commands((SOURCE / page).read_text())))
-        for line in lines:
+        flown = {flight for earlier in pages()[:pages().index(page)] for line in single_commands(earlier)
+                 for flight in flights(line, (SOURCE / earlier).read_text())}
+        for line in single_commands(page):
+            here = flights(line, (SOURCE / page).read_text())
+            if here and here <= flown:
+                continue
+            flown |= here
             with self.subTest(line=line):
                 self.run_line(line, counts_sweeps=page == "docs/verification.md")
         if program:  # may read the results of the commands
