@@ -108,6 +108,12 @@ void declare_calibration(CLI::App& app, std::function<int()>& chosen, Calibratio
   add_scenario(*command, calibration.scenario);
   command->add_option("--format", calibration.format, "opencv (FileStorage YAML, the default) or kalibr")
       ->check(CLI::IsMember({"opencv", "kalibr"}));
+  command
+      ->add_option("--camera", calibration.cameras,
+                   "role of a camera to write; may be repeated, the first is cam0; default all cameras")
+      ->type_name("NAME");
+  command->add_flag("--opencv-header", calibration.opencv_header,
+                    "begin Kalibr's chain with the line %YAML:1.0, for OpenCV's FileStorage; Kalibr refuses this line");
   command->add_option("-o", calibration.out, "output file; default standard output")->type_name("FILE.yaml");
   command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 }

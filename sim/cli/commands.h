@@ -48,8 +48,10 @@ int render(const RenderOptions& options);
 
 struct CalibrationOptions {
   ScenarioOptions scenario;
-  std::string format = "opencv";  ///< or "kalibr"
-  std::filesystem::path out;      ///< empty: standard output
+  std::string format = "opencv";     ///< or "kalibr"
+  std::vector<std::string> cameras;  ///< roles in the order of cam0, cam1 ...; empty: all
+  bool opencv_header = false;        ///< of Kalibr's chain
+  std::filesystem::path out;         ///< empty: standard output
 };
 /// Writes the camera calibration of the rig for other programs.
 int calibration(const CalibrationOptions& options);

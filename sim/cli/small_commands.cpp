@@ -42,9 +42,15 @@ int schema() {
 }
 
 int calibration(const CalibrationOptions& options) {
-  const RigConfig rig = load(options.scenario).scenario.rig;
-  const std::string text =
-      build_part("rig", [&] { return options.format == "kalibr" ? kalibr_calibration(rig) : opencv_calibration(rig); });
+  const bool kalibr = options.format == "kalibr";
+  if (options.opencv_header && !kalibr) throw InputError("--opencv-header is for --format kalibr");
+  const Scenario scenario = load(options.scenario).scenario;
+  const RigConfig& rig = scenario.rig;
+  const std::vector<CameraConfig> cameras = options.cameras.empty() ? rig.cameras : rig.select(options.cameras);
+  const std::string text = build_part("rig", [&] {
+    return kalibr ? kalibr_calibration(cameras, scenario.avionics.imu, options.opencv_header)
+                  : opencv_calibration(cameras, scenario.avionics.imu);
+  });
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;

@@ -36,7 +36,7 @@ std::string camera_sensor(const RecordedCamera& camera) {
 
 std::string camera_data(const RecordedCamera& camera) {
   std::string text = "#timestamp [ns],filename\n";
-  for (const int64_t t_ns : camera.t_ns) text += fmt::format("{},{}.png\n", t_ns, t_ns);
+  for (const int64_t t_ns : camera.t_ns) text += fmt::format("{0},{0}.png\n", kStartTimeNs + t_ns);
   return text;
 }
 
@@ -54,7 +54,7 @@ std::string imu_data(const SensorRecord& record) {
       std::string_view("#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
                        "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n"));
   for (const RecordedReading& reading : record.imu) {
-    CsvLine(out).add(fmt::to_string(reading.t_ns)).add(reading.w_F).add(reading.f_F);
+    CsvLine(out).add(fmt::to_string(kStartTimeNs + reading.t_ns)).add(reading.w_F).add(reading.f_F);
   }
   return fmt::to_string(out);
 }
@@ -68,7 +68,7 @@ std::string truth_data(const SensorRecord& record) {
   for (const RecordedState& state : record.states) {
     const Eigen::Quaterniond q(state.X_EF.linear());
     CsvLine(out)
-        .add(fmt::to_string(state.t_ns))
+        .add(fmt::to_string(kStartTimeNs + state.t_ns))
         .add(Eigen::Vector3d(state.X_EF.translation()))
         .add(q.w())
         .add(Eigen::Vector3d(q.vec()))
@@ -82,7 +82,7 @@ std::string truth_data(const SensorRecord& record) {
 }  // namespace
 
 std::filesystem::path euroc_image(size_t camera, int64_t t_ns) {
-  return camera_folder(camera) / "data" / fmt::format("{}.png", t_ns);
+  return camera_folder(camera) / "data" / fmt::format("{}.png", kStartTimeNs + t_ns);
 }
 
 std::vector<DataFile> euroc_files(const SensorRecord& record) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -21,27 +22,14 @@ namespace {
 
 RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::ImuConfig& imu, uint64_t seed) {
   const vision::camera::Camera model = config.model();
-  const Eigen::Isometry3d X_IB(Eigen::Translation3d(-imu.p_BI_m));
-  const auto from_F = [&](const Eigen::Isometry3d& X_BC) {
-    Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();
-    X_FC.linear() = R_FB() * X_BC.linear();
-    X_FC.translation() = R_FB() * (X_IB * X_BC).translation();
-    return X_FC;
-  };
   return {.role = config.role,
           .width_px = model.width_px,
           .height_px = model.height_px,
           .rate_hz = config.rate_hz,
           .lens = intrinsics(config, model),
-          .X_FC = from_F(config.X_BC()),
-          .X_FC_true = from_F(true_X_BC(config, model, seed)),
+          .X_FC = X_FC(imu, config.X_BC()),
+          .X_FC_true = X_FC(imu, true_X_BC(config, model, seed)),
           .t_ns = {}};
-}
-
-std::string roles(const RigConfig& rig) {
-  std::string text;
-  for (const CameraConfig& camera : rig.cameras) text += (text.empty() ? "" : ", ") + camera.role;
-  return text;
 }
 
 /// Returns the cameras to export, in the order of `requested`.
@@ -50,28 +38,17 @@ std::vector<RecordedCamera> select_cameras(const Scenario& scenario, const std::
   const auto has_images = [](const CameraConfig& c) {
     return c.channel == Channel::grey || c.channel == Channel::color;
   };
-  std::vector<const CameraConfig*> chosen;
-  for (const CameraConfig& camera : scenario.rig.cameras) {
-    if (requested.empty() && has_images(camera)) chosen.push_back(&camera);
+  std::vector<CameraConfig> chosen = scenario.rig.select(requested);
+  for (const CameraConfig& camera : chosen) {
+    if (has_images(camera)) continue;
+    const std::string_view what = camera.channel == Channel::depth ? "depth" : "corners";
+    throw InputError(fmt::format("--camera {}: has {}, not images", camera.role, what));
   }
-  for (const std::string& role : requested) {
-    const CameraConfig* const camera = scenario.rig.find(role);
-    if (!camera) {
-      throw InputError(fmt::format("--camera {}: not in the rig; valid: {}", role, roles(scenario.rig)));
-    }
-    if (!has_images(*camera)) {
-      const std::string_view what = camera->channel == Channel::depth ? "depth" : "corners";
-      throw InputError(fmt::format("--camera {}: has {}, not images", role, what));
-    }
-    if (std::ranges::find(chosen, camera) != chosen.end()) {
-      throw InputError(fmt::format("--camera {}: given twice", role));
-    }
-    chosen.push_back(camera);
-  }
+  if (requested.empty()) std::ranges::copy_if(scenario.rig.cameras, std::back_inserter(chosen), has_images);
   if (chosen.empty()) throw InputError("the rig has no camera with images");
   std::vector<RecordedCamera> cameras;
-  for (const CameraConfig* const camera : chosen) {
-    cameras.push_back(build_part("rig", [&] { return recorded(*camera, scenario.avionics.imu, scenario.seed); }));
+  for (const CameraConfig& camera : chosen) {
+    cameras.push_back(build_part("rig", [&] { return recorded(camera, scenario.avionics.imu, scenario.seed); }));
   }
   return cameras;
 }
@@ -113,7 +90,8 @@ cv::Mat tum_depth_image(const cv::Mat& depth_m) {
   return depth;
 }
 
-/// Writes images during the flight and stores the other readings.
+/// Writes images during the flight and stores the other readings. An image is written once a later IMU reading follows,
+/// so that the readings enclose the images, as estimators require.
 class Recorder : public FlightWatcher {
  public:
   using Progress = std::function<void(double, double, double)>;
@@ -127,11 +105,19 @@ class Recorder : public FlightWatcher {
 
   void on_sensors(const SensorTick& tick) override {
     if (tick.imu) {
+      write_pending();
       const Eigen::Matrix3d R = R_FB();
       record_.imu.push_back({tick.t_ns, R * tick.imu->w_WB_B_meas, R * tick.imu->specific_force_B_meas});
     }
-    const bool images = write_images(tick);
+    const bool images = !record_.imu.empty() && record_.imu.front().t_ns < tick.t_ns && take_images(tick);
     if (tick.imu || images) record_.states.push_back(state(tick));
+  }
+
+  /// Drops the images that no IMU reading follows.
+  void close() {
+    for (RecordedCamera& camera : record_.cameras) {
+      while (!camera.t_ns.empty() && camera.t_ns.back() >= record_.imu.back().t_ns) camera.t_ns.pop_back();
+    }
   }
 
  private:
@@ -151,7 +137,7 @@ class Recorder : public FlightWatcher {
     return frame == tick.frames.end() ? nullptr : &*frame;
   }
 
-  bool write_images(const SensorTick& tick) {
+  bool take_images(const SensorTick& tick) {
     std::vector<const avoidance::CameraFrame*> frames;
     for (const RecordedCamera& camera : record_.cameras) frames.push_back(frame_of(tick, camera.role));
     // KITTI numbers the images of all cameras equally, so an instant with a lost image is omitted.
@@ -162,10 +148,13 @@ class Recorder : public FlightWatcher {
       if (!frames[i]) continue;
       any = true;
       const std::filesystem::path file = image_file(i, tick.t_ns);
-      write(file, frames[i]->image);
-      if (request_.truth) true_images_.write(i, record_.cameras[i].role, tick, file.stem().string());
+      pending_.push_back({file, frames[i]->image.clone()});
+      if (request_.truth) {
+        std::ranges::move(true_images_.images(i, record_.cameras[i].role, tick, file.stem().string()),
+                          std::back_inserter(pending_));
+      }
       if (request_.format == DataFormat::tum) {
-        write(tum_depth(tick.t_ns), tum_depth_image(tick.depth(record_.cameras[i].role)));
+        pending_.push_back({tum_depth(tick.t_ns), tum_depth_image(tick.depth(record_.cameras[i].role))});
       }
       record_.cameras[i].t_ns.push_back(tick.t_ns);
     }
@@ -178,16 +167,20 @@ class Recorder : public FlightWatcher {
     return kitti_image(camera, record_.cameras[camera].t_ns.size());
   }
 
-  void write(const std::filesystem::path& name, const cv::Mat& image) const {
-    const std::filesystem::path file = request_.out / name;
-    std::filesystem::create_directories(file.parent_path());
-    write_png(file, image);
+  void write_pending() {
+    for (const auto& [name, image] : pending_) {
+      const std::filesystem::path file = request_.out / name;
+      std::filesystem::create_directories(file.parent_path());
+      write_png(file, image);
+    }
+    pending_.clear();
   }
 
   const ExportRequest& request_;
   SensorRecord& record_;
   const Progress& progress_;
-  TrueImages true_images_{request_.out};
+  TrueImages true_images_;
+  std::vector<ImageFile> pending_;  ///< images that no IMU reading follows yet
 };
 
 }  // namespace
@@ -206,6 +199,7 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
   check(request, record);
   Recorder recorder(request, record, progress);
   Flight flight = Simulation(scenario, {}, &recorder).run();
+  recorder.close();
   for (const DataFile& file : texts(request.format, record)) {
     std::filesystem::create_directories((request.out / file.name).parent_path());
     write_file_whole(request.out / file.name, file.text);
@@ -214,6 +208,7 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
                                       {"seed", scenario.seed},
                                       {"version", std::string(version())},
                                       {"build", std::string(build_identity())},
+                                      {"start_time_ns", kStartTimeNs},
                                       {"truth_used", flight.result.truth_used},
                                       {"trajectory_hash", flight.result.trajectory_hash}};
   write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");

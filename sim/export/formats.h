@@ -5,8 +5,8 @@
 namespace hedgehop::sim {
 
 /// Returns the text files of a data set in the EuRoC layout, after [BurriNikolicGohl2016]: mav0/ with cam0.., imu0 and
-/// state_groundtruth_estimate0, each with sensor.yaml and data.csv. R is E, S of the IMU is F, times are ns of flight.
-/// Throws InputError for a lens that the format cannot represent (k3 of a pinhole).
+/// state_groundtruth_estimate0, each with sensor.yaml and data.csv. R is E, S of the IMU is F, times count from
+/// kStartTimeNs. Throws InputError for a lens that the format cannot represent (k3 of a pinhole).
 std::vector<DataFile> euroc_files(const SensorRecord& record);
 
 /// Returns the file of an image, relative to the folder of the data set.
@@ -14,8 +14,9 @@ std::filesystem::path euroc_image(size_t camera, int64_t t_ns);
 
 /// Returns the text files of a data set in the odometry layout, after [GeigerLenzUrtasun2012]: sequences/00 with
 /// image_0.., calib.txt and times.txt, and poses/00.txt. Poses are those of the first camera relative to its first
-/// pose. calib.txt has P0.. (from the frame of the first camera to each image) and Tr_imu_to_cam0, as in the raw data.
-/// imu.txt has the readings, which the odometry layout lacks: t, w_F, f_F.
+/// pose. calib.txt has P0 to P3 (from the frame of the first camera to each image; two cameras repeat as P2 and P3) and
+/// Tr, the pose of F in the first camera: KITTI stores the pose of its laser scanner there, whose axes are F's. Times
+/// are s of flight. imu.txt has the readings, which the odometry layout lacks: t, w_F, f_F.
 /// @param record  with undistorted pinholes of one rate. Throws InputError otherwise.
 std::vector<DataFile> kitti_files(const SensorRecord& record);
 
@@ -26,7 +27,7 @@ inline constexpr double kTumDepthPerMeter = 5000.0;
 
 /// Returns the text files of a data set with one pinhole in the TUM layout, after [SturmEngelhardEndres2012]: rgb.txt,
 /// depth.txt, groundtruth.txt (X_EC of the camera: t x y z qx qy qz qw), accelerometer.txt (of the IMU, along F). In
-/// addition: gyroscope.txt, and calibration.yaml for OpenCV. Times are s of flight.
+/// addition: gyroscope.txt, and calibration.yaml for OpenCV. Times count from kStartTimeNs.
 /// @param record  with one camera, a pinhole.
 std::vector<DataFile> tum_files(const SensorRecord& record);
 

@@ -55,10 +55,13 @@ std::vector<DataFile> kitti_files(const SensorRecord& record) {
   check(record);
   const RecordedCamera& first = record.cameras.at(0);
   std::string calib, times, poses, imu;
-  for (size_t i = 0; i < record.cameras.size(); ++i) {
-    calib += fmt::format("P{}: {}\n", i, row_by_row(projection(record.cameras[i], first)));
+  // Readers expect the two grey and two color cameras of KITTI; fewer cameras repeat.
+  constexpr size_t kCameras = 4;
+  for (size_t i = 0; i < std::max(kCameras, record.cameras.size()); ++i) {
+    calib += fmt::format("P{}: {}\n", i, row_by_row(projection(record.cameras[i % record.cameras.size()], first)));
   }
-  calib += "Tr_imu_to_cam0: " + row_by_row(first.X_FC.inverse().matrix().topRows<3>()) + "\n";
+  const std::string imu_to_camera = row_by_row(first.X_FC.inverse().matrix().topRows<3>());
+  calib += fmt::format("Tr: {0}\nTr_imu_to_cam0: {0}\n", imu_to_camera);
   for (const int64_t t_ns : first.t_ns) {
     const Eigen::Isometry3d X_EC = state_at(record, t_ns).X_EF * first.X_FC_true;
     const Eigen::Isometry3d X_EC_first = state_at(record, first.t_ns.front()).X_EF * first.X_FC_true;

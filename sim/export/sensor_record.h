@@ -11,9 +11,13 @@
 
 namespace hedgehop::sim {
 
-// The conversion to the frames of other programs. E: east, north, up, with the origin of W. F: forward, left, up, fixed
-// to the vehicle. Camera frames are unchanged: right, down, forward.
+// The conversion to the frames of other programs. E: east, north, up, with the origin of W. F: the IMU's
+// (sim/scenario/calibration.h). Camera frames are unchanged: right, down, forward.
 
+/// Start of a flight in the time stamps of data sets, ns since 1970: their readers need 19 digits.
+inline constexpr int64_t kStartTimeNs = 1'600'000'000'000'000'000;
+
+/// Rotation from W to E.
 inline Eigen::Matrix3d R_EW() {
   Eigen::Matrix3d R;
   R << 0, 1, 0,  //
@@ -21,8 +25,6 @@ inline Eigen::Matrix3d R_EW() {
       0, 0, -1;
   return R;
 }
-
-inline Eigen::Matrix3d R_FB() { return Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal(); }
 
 /// Returns the pose in E of the F frame that belongs to a frame along B's axes. Both have the same origin.
 inline Eigen::Isometry3d X_EF(const Eigen::Isometry3d& X_WB) {
@@ -38,7 +40,7 @@ struct RecordedCamera {
   int width_px = 0, height_px = 0;
   double rate_hz = 0.0;
   Intrinsics lens;
-  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();       ///< calibrated pose; the origin of F is the IMU
+  Eigen::Isometry3d X_FC = Eigen::Isometry3d::Identity();       ///< calibrated pose
   Eigen::Isometry3d X_FC_true = Eigen::Isometry3d::Identity();  ///< true pose
   std::vector<int64_t> t_ns;                                    ///< of the images
 };

@@ -42,18 +42,17 @@ cv::Mat kitti_flow(const cv::Mat& flow_px) {
 
 }  // namespace
 
-void TrueImages::write(size_t camera, const std::string& role, const SensorTick& tick, const std::string& stem) {
-  const std::filesystem::path folder = out_ / "truth" / fmt::format("cam{}", camera);
-  const auto write = [&](const char* kind, const std::string& name, const cv::Mat& image) {
-    std::filesystem::create_directories(folder / kind);
-    write_png(folder / kind / (name + ".png"), image);
-  };
-  write("depth", stem, depth_mm(tick.depth(role)));
-  write("labels", stem, small_labels(tick.labels(role)));
-  write("moving", stem, tick.moving(role));
+std::vector<ImageFile> TrueImages::images(size_t camera, const std::string& role, const SensorTick& tick,
+                                          const std::string& stem) {
+  const std::filesystem::path folder = std::filesystem::path("truth") / fmt::format("cam{}", camera);
+  const auto file = [&](const char* kind, const std::string& name) { return folder / kind / (name + ".png"); };
+  std::vector<ImageFile> images{{file("depth", stem), depth_mm(tick.depth(role))},
+                                {file("labels", stem), small_labels(tick.labels(role))},
+                                {file("moving", stem), tick.moving(role)}};
   std::string& last = last_stem_[camera];
-  if (!last.empty()) write("flow", last, kitti_flow(tick.flow_to_here(role)));
+  if (!last.empty()) images.push_back({file("flow", last), kitti_flow(tick.flow_to_here(role))});
   last = stem;
+  return images;
 }
 
 }  // namespace hedgehop::sim

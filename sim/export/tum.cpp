@@ -5,8 +5,11 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Returns seconds with nanosecond resolution.
-std::string seconds(int64_t t_ns) { return fmt::format("{}.{:09}", t_ns / 1'000'000'000, t_ns % 1'000'000'000); }
+/// Returns a time of the flight as a time stamp in seconds.
+std::string seconds(int64_t t_ns) {
+  const int64_t stamp_ns = kStartTimeNs + t_ns;
+  return fmt::format("{}.{:09}", stamp_ns / 1'000'000'000, stamp_ns % 1'000'000'000);
+}
 
 std::string image_list(const char* title, const std::vector<int64_t>& t_ns, std::filesystem::path (*file)(int64_t)) {
   std::string text = fmt::format("# {}\n# of a simulated flight\n# timestamp filename\n", title);

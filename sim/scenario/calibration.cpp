@@ -29,9 +29,10 @@ std::string opencv_matrix(std::string_view name, int rows, const std::vector<dou
                      rows, numbers.size() / static_cast<size_t>(rows), list(numbers));
 }
 
+/// OpenCV's reader needs list items that are indented further than their key.
 std::string kalibr_pose(std::string_view name, const Eigen::Isometry3d& X) {
   std::string text = fmt::format("  {}:\n", name);
-  for (const auto& row : X.matrix().rowwise()) text += fmt::format("  - {}\n", list({row.begin(), row.end()}));
+  for (const auto& row : X.matrix().rowwise()) text += fmt::format("    - {}\n", list({row.begin(), row.end()}));
   return text;
 }
 
@@ -68,9 +69,16 @@ Intrinsics intrinsics(const CameraConfig& config, const vision::camera::Camera& 
                   config.role, config.calibration.string()));
 }
 
-std::string opencv_calibration(const RigConfig& rig) {
+Eigen::Isometry3d X_FC(const dynamics::sensors::ImuConfig& imu, const Eigen::Isometry3d& X_BC) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = R_FB() * X_BC.linear();
+  X.translation() = R_FB() * (X_BC.translation() - imu.p_BI_m);
+  return X;
+}
+
+std::string opencv_calibration(std::span<const CameraConfig> cameras, const dynamics::sensors::ImuConfig& imu) {
   std::string text = "%YAML:1.0\n---\n";
-  for (const CameraConfig& config : rig.cameras) {
+  for (const CameraConfig& config : cameras) {
     require_key(config.role);
     const vision::camera::Camera camera = config.model();
     const Intrinsics lens = intrinsics(config, camera);
@@ -80,15 +88,17 @@ std::string opencv_calibration(const RigConfig& rig) {
                         camera.width_px, camera.height_px, lens.fisheye ? "fisheye" : "pinhole");
     text += opencv_matrix("camera_matrix", 3, matrix);
     text += opencv_matrix("distortion_coefficients", 1, lens.distortion);
+    text += opencv_matrix("imu_from_camera", 4, row_by_row(X_FC(imu, config.X_BC()).matrix()));
     text += opencv_matrix("body_from_camera", 4, row_by_row(config.X_BC().matrix()));
   }
   return text;
 }
 
-std::string kalibr_calibration(const RigConfig& rig) {
-  std::string text;
-  for (size_t i = 0; i < rig.cameras.size(); ++i) {
-    const CameraConfig& config = rig.cameras[i];
+std::string kalibr_calibration(std::span<const CameraConfig> cameras, const dynamics::sensors::ImuConfig& imu,
+                               bool opencv_header) {
+  std::string text = opencv_header ? "%YAML:1.0\n---\n" : "";
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const CameraConfig& config = cameras[i];
     const vision::camera::Camera camera = config.model();
     Intrinsics lens = intrinsics(config, camera);
     if (!lens.fisheye) {
@@ -104,8 +114,8 @@ std::string kalibr_calibration(const RigConfig& rig) {
                         list(lens.distortion));
     text += fmt::format("  resolution: [{}, {}]\n  rostopic: /{}/image_raw\n", camera.width_px, camera.height_px,
                         config.role);
-    text += kalibr_pose("T_cam_imu", config.X_BC().inverse());
-    if (i > 0) text += kalibr_pose("T_cn_cnm1", config.X_BC().inverse() * rig.cameras[i - 1].X_BC());
+    text += kalibr_pose("T_cam_imu", X_FC(imu, config.X_BC()).inverse());
+    if (i > 0) text += kalibr_pose("T_cn_cnm1", config.X_BC().inverse() * cameras[i - 1].X_BC());
   }
   return text;
 }

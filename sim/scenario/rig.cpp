@@ -1,7 +1,5 @@
 #include "sim/scenario/rig.h"
 
-#include "sim/config/include.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sim/config/include.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/bounds.h"
 #include "sim/libm/random.h"
 
@@ -139,6 +139,23 @@ const CameraConfig* RigConfig::find(std::string_view role) const {
     if (camera.role == role) return &camera;
   }
   return nullptr;
+}
+
+std::vector<CameraConfig> RigConfig::select(const std::vector<std::string>& roles) const {
+  std::vector<CameraConfig> selected;
+  for (const std::string& role : roles) {
+    const CameraConfig* const camera = find(role);
+    if (!camera) {
+      std::vector<std::string_view> valid;
+      for (const CameraConfig& other : cameras) valid.push_back(other.role);
+      throw InputError(fmt::format("--camera {}: not in the rig; valid: {}", role, fmt::join(valid, ", ")));
+    }
+    if (std::ranges::find(selected, role, &CameraConfig::role) != selected.end()) {
+      throw InputError(fmt::format("--camera {}: given twice", role));
+    }
+    selected.push_back(*camera);
+  }
+  return selected;
 }
 
 std::vector<std::string> RigConfig::lacks(std::string_view role, CameraConfig::Channel channel, bool pinhole) const {

@@ -215,6 +215,9 @@ struct RigConfig {
 
   /// Returns the camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
+  /// Returns the cameras of the roles of `--camera`, in this order. Throws InputError for a role that the rig lacks or
+  /// that occurs twice.
+  std::vector<CameraConfig> select(const std::vector<std::string>& roles) const;
   /// Returns why the rig does not fulfil a need of a camera with this role and channel and, with `pinhole`, an
   /// undistorted pinhole; empty if it does.
   std::vector<std::string> lacks(std::string_view role, CameraConfig::Channel channel, bool pinhole) const;

@@ -24,11 +24,23 @@ def yaml_numbers(text, key):
     return np.array([float(n) for n in text[begin:text.index("]", begin)].split(",")])
 
 
+START_NS = 1_600_000_000_000_000_000  # time stamp of the start of a flight
+
+
+def table(file):
+    """Returns the rows of a table with times of the flight, ns. As numbers of NumPy, time stamps would lose 256 ns."""
+    with open(file) as text:
+        rows = [row for row in csv.reader(text) if not row[0].startswith("#")]
+    return np.array([[int(row[0]) - START_NS, *map(float, row[1:])] for row in rows])
+
+
 class Euroc:
+    """Times are those of the flight, ns."""
+
     def __init__(self, folder):
         self.root = folder / "mav0"
-        self.truth = np.loadtxt(self.root / "state_groundtruth_estimate0/data.csv", delimiter=",")
-        self.imu = np.loadtxt(self.root / "imu0/data.csv", delimiter=",")
+        self.truth = table(self.root / "state_groundtruth_estimate0/data.csv")
+        self.imu = table(self.root / "imu0/data.csv")
 
     def camera(self, name):
         text = (self.root / name / "sensor.yaml").read_text()
@@ -38,7 +50,7 @@ class Euroc:
     def images(self, name):
         with open(self.root / name / "data.csv") as file:
             rows = list(csv.reader(file))
-        return {int(t): self.root / name / "data" / image for t, image in rows[1:]}
+        return {int(t) - START_NS: self.root / name / "data" / image for t, image in rows[1:]}
 
     def state(self, t_ns):
         row = self.truth[np.searchsorted(self.truth[:, 0], t_ns)]

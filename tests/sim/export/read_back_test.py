@@ -14,7 +14,7 @@ import unittest
 import cv2
 import numpy as np
 
-from euroc import Euroc, pose, rotation
+from euroc import START_NS, Euroc, pose, rotation
 
 PROGRAM, SOURCE = sys.argv[1:3]
 GRAVITY = 9.81
@@ -120,9 +120,14 @@ class ReadBack(unittest.TestCase):
             self.assertGreater(len(images), 30)
             for t_ns, file in images.items():
                 self.assertEqual(t_ns % period_ns, 0)
-                self.assertEqual(file.stem, str(t_ns))
+                self.assertEqual(file.stem, str(START_NS + t_ns))
+                self.assertEqual(len(file.stem), 19)
                 self.assertIsNotNone(cv2.imread(str(file)))
-        self.assertEqual(len(self.euroc.images("cam0")), 251)
+            self.assertLess(self.euroc.imu[0, 0], min(images))
+            self.assertGreater(self.euroc.imu[-1, 0], max(images))
+            self.assertEqual(sorted(file.name for file in (self.euroc.root / name / "data").iterdir()),
+                             [images[t_ns].name for t_ns in sorted(images)])  # sorted as text
+        self.assertEqual(len(self.euroc.images("cam0")), 249)  # of 251: neither the first nor the last
         self.assertLess(len(self.euroc.images("cam1")), 51)  # some are dropped
 
     def test_images_are_those_of_the_flight(self):
@@ -179,7 +184,7 @@ class ReadBack(unittest.TestCase):
         random = np.random.default_rng(7)
         off = []
         for t_text in list(rgb)[4:44:8]:
-            t_ns = int(t_text.replace(".", ""))
+            t_ns = int(t_text.replace(".", "")) - START_NS
             if t_ns not in right:
                 continue
             a, b = cv2.imread(str(left[t_ns]), 0), cv2.imread(str(right[t_ns]), 0)
@@ -243,6 +248,12 @@ class ReadBack(unittest.TestCase):
         np.testing.assert_allclose(calib["P0"], np.hstack([K, np.zeros((3, 1))]), atol=1e-9)
         self.assertAlmostEqual(-calib["P1"][0, 3] / K[0, 0], 0.4, places=9)  # the baseline
         np.testing.assert_allclose(calib["Tr_imu_to_cam0"], np.linalg.inv(X_left)[:3], atol=1e-9)
+        # As pykitti reads the odometry layout: four projections, the baselines of both pairs, and the laser scanner.
+        projections = [calib[f"P{camera}"] for camera in range(4)]
+        offsets = [np.array([P[0, 3] / P[0, 0], 0, 0]) for P in projections]
+        self.assertAlmostEqual(np.linalg.norm(offsets[1] - offsets[0]), 0.4, places=9)
+        self.assertAlmostEqual(np.linalg.norm(offsets[3] - offsets[2]), 0.4, places=9)
+        np.testing.assert_array_equal(calib["Tr"], calib["Tr_imu_to_cam0"])
         times = np.loadtxt(root / "times.txt")
         for number, t_s in list(enumerate(times))[::7]:
             for camera, name in ((0, "cam1"), (1, "cam2")):
@@ -254,10 +265,51 @@ class ReadBack(unittest.TestCase):
         accelerometer = np.loadtxt(self.run_folder / "tum/accelerometer.txt")
         gyroscope = np.loadtxt(self.run_folder / "tum/gyroscope.txt")
         kitti = np.loadtxt(self.run_folder / "kitti/sequences/00/imu.txt")
-        np.testing.assert_allclose(accelerometer[:, 0], self.euroc.imu[:, 0] * 1e-9, atol=1e-9)
+        np.testing.assert_allclose(accelerometer[:, 0] - START_NS * 1e-9, self.euroc.imu[:, 0] * 1e-9, atol=1e-6)
+        with open(self.run_folder / "tum/accelerometer.txt") as text:
+            self.assertEqual(text.readlines()[3].split()[0], "1600000000.000000000")
         np.testing.assert_array_equal(accelerometer[:, 1:], self.euroc.imu[:, 4:7])
         np.testing.assert_array_equal(gyroscope[:, 1:], self.euroc.imu[:, 1:4])
         np.testing.assert_array_equal(kitti[:, 1:], self.euroc.imu[:, 1:7])
+
+    def test_gravity_and_lever_arm_are_the_same_through_every_file(self):
+        """The reading of the accelerometers at the start, in the hover, points up in the left camera's frame."""
+        def turn(axis, degrees):
+            return cv2.Rodrigues(np.radians(degrees) * np.eye(3)[axis])[0]
+
+        row = self.trajectory[0]
+        R_NB = turn(2, np.degrees(float(row["yaw_rad"]))) @ turn(1, np.degrees(float(row["pitch_rad"]))) \
+            @ turn(0, np.degrees(float(row["roll_rad"])))
+        R_BC = turn(1, -25) @ turn(0, 3) @ np.eye(3)[[2, 0, 1]]  # right, down, forward of a camera that looks forward
+        up_C = R_BC.T @ R_NB.T @ [0, 0, -GRAVITY]
+        p_CI_C = R_BC.T @ (IMU_POSITION - [0.3, 0, 0]) + [0.2, 0, 0]  # half of the baseline
+
+        chain, opencv = self.folder / "chain.yaml", self.folder / "opencv.yaml"
+        scenario = self.run_folder / "scenario.yaml"
+        for words in (["--format", "kalibr", "--opencv-header", "-o", chain], ["-o", opencv]):
+            done = hedgehop("calibration", scenario, "--camera", "left", "--camera", "right", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        kitti = dict(line.split(":") for line in (self.run_folder / "kitti/sequences/00/calib.txt").read_text().splitlines())
+
+        open_files = []  # nodes refer to their files
+
+        def node(file, *keys):
+            open_files.append(cv2.FileStorage(str(file), cv2.FILE_STORAGE_READ))
+            at = open_files[-1].root()
+            for key in keys:
+                at = at.getNode(key)
+            return at
+
+        rows = node(chain, "cam0", "T_cam_imu")
+        X_CF = {"euroc": np.linalg.inv(self.euroc.camera("cam1")[1]),
+                "kalibr": np.array([[rows.at(i).at(j).real() for j in range(4)] for i in range(4)]),
+                "kitti": np.vstack([np.array(kitti["Tr"].split(), float).reshape(3, 4), [0, 0, 0, 1]]),
+                "tum": np.linalg.inv(node(self.run_folder / "tum/calibration.yaml", "imu_from_camera").mat()),
+                "opencv": np.linalg.inv(node(opencv, "left", "imu_from_camera").mat())}
+        up_F = self.euroc.imu[0, 4:7] - self.euroc.state(0)[4]  # without the bias
+        for name, X in X_CF.items():
+            np.testing.assert_allclose(X[:3, :3] @ up_F, up_C, atol=0.3, err_msg=name)  # the trim accelerates a little
+            np.testing.assert_allclose(X[:3, 3], p_CI_C, atol=1e-9, err_msg=name)
 
     def refused(self, *arguments):
         done = hedgehop("export", *arguments)

@@ -11,6 +11,7 @@ import unittest
 import cv2
 import numpy as np
 
+from euroc import START_NS
 from read_back_test import SCENARIO, Euroc, hedgehop, pose
 
 MOVER = ("movers: [{name: ball, shape: balloon, radius: 1, height: 3, "
@@ -37,11 +38,11 @@ class Truth(unittest.TestCase):
         cls.temporary.cleanup()
 
     def read(self, what, t_ns):
-        return cv2.imread(str(self.root / what / f"{t_ns}.png"), cv2.IMREAD_UNCHANGED)
+        return cv2.imread(str(self.root / what / f"{START_NS + t_ns}.png"), cv2.IMREAD_UNCHANGED)
 
     def test_every_image_has_its_truth(self):
         for what in ("depth", "labels", "moving", "flow"):
-            names = sorted(int(file.stem) for file in (self.root / what).iterdir())
+            names = sorted(int(file.stem) - START_NS for file in (self.root / what).iterdir())
             self.assertEqual(names, self.times[:-1] if what == "flow" else self.times)
         self.assertEqual(self.read("depth", self.times[0]).dtype, np.uint16)
         self.assertEqual(self.read("moving", self.times[0]).dtype, np.uint8)

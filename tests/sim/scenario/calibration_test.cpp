@@ -59,9 +59,18 @@ void expect_same_pixels(const CameraConfig& config, bool fisheye, const cv::Mat&
   }
 }
 
+dynamics::sensors::ImuConfig imu_of_test() { return {.p_BI_m = {0.1, -0.05, 0.2}}; }
+
+/// The IMU's frame by its definition: forward, left, up, at the IMU. Returns the position in F of a point in B.
+Eigen::Vector3d in_F(const Eigen::Vector3d& p_B) {
+  const Eigen::Vector3d p_IP_B = p_B - imu_of_test().p_BI_m;
+  return {p_IP_B.x(), -p_IP_B.y(), -p_IP_B.z()};
+}
+
 TEST(Calibration, OpenCvReadsItAndSeesTheSame) {
   const RigConfig rig = three_cameras(true);
-  const cv::FileStorage file(opencv_calibration(rig), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  const cv::FileStorage file(opencv_calibration(rig.cameras, imu_of_test()),
+                             cv::FileStorage::READ | cv::FileStorage::MEMORY);
   for (const CameraConfig& camera : rig.cameras) {
     const cv::FileNode node = file[camera.role];
     ASSERT_FALSE(node.empty()) << camera.role;
@@ -88,7 +97,7 @@ Eigen::Isometry3d pose(const YAML::Node& rows) {
 
 TEST(Calibration, KalibrsChainHoldsLensesAndPoses) {
   const RigConfig rig = three_cameras(false);
-  const YAML::Node chain = YAML::Load(kalibr_calibration(rig));
+  const YAML::Node chain = YAML::Load(kalibr_calibration(rig.cameras, imu_of_test()));
   ASSERT_EQ(chain.size(), 3u);
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
     const YAML::Node node = chain["cam" + std::to_string(i)];
@@ -103,19 +112,38 @@ TEST(Calibration, KalibrsChainHoldsLensesAndPoses) {
     expect_same_pixels(rig.cameras[i], fisheye, K, cv::Mat(distortion));
 
     const Eigen::Vector3d p_B(0.3, -2.0, 1.1);
-    EXPECT_NEAR((rig.cameras[i].X_BC() * (pose(node["T_cam_imu"]) * p_B) - p_B).norm(), 0.0, 1e-14);
+    EXPECT_NEAR((rig.cameras[i].X_BC() * (pose(node["T_cam_imu"]) * in_F(p_B)) - p_B).norm(), 0.0, 1e-14);
     if (i == 0) continue;
-    const Eigen::Vector3d p_before = pose(chain["cam" + std::to_string(i - 1)]["T_cam_imu"]) * p_B;
-    EXPECT_NEAR((pose(node["T_cn_cnm1"]) * p_before - pose(node["T_cam_imu"]) * p_B).norm(), 0.0, 1e-14);
+    const Eigen::Vector3d p_before = pose(chain["cam" + std::to_string(i - 1)]["T_cam_imu"]) * in_F(p_B);
+    EXPECT_NEAR((pose(node["T_cn_cnm1"]) * p_before - pose(node["T_cam_imu"]) * in_F(p_B)).norm(), 0.0, 1e-14);
+  }
+}
+
+TEST(Calibration, OpenCvReadsKalibrsChainWithItsHeader) {
+  const RigConfig rig = three_cameras(false);
+  const std::string chain = kalibr_calibration(rig.cameras, imu_of_test());
+  const std::string with_header = kalibr_calibration(rig.cameras, imu_of_test(), /*opencv_header=*/true);
+  EXPECT_TRUE(with_header.ends_with(chain));
+  const YAML::Node expected = YAML::Load(chain);
+  const cv::FileStorage file(with_header, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  for (const std::string camera : {"cam0", "cam1", "cam2"}) {
+    std::vector<double> intrinsics;
+    file[camera]["intrinsics"] >> intrinsics;
+    EXPECT_EQ(intrinsics, expected[camera]["intrinsics"].as<std::vector<double>>());
+    for (int row = 0; row < 4; ++row) {
+      std::vector<double> numbers;
+      file[camera]["T_cam_imu"][row] >> numbers;
+      EXPECT_EQ(numbers, expected[camera]["T_cam_imu"][row].as<std::vector<double>>());
+    }
   }
 }
 
 TEST(Calibration, RefusesLensesThatAFormatCannotHold) {
-  EXPECT_THAT([] { kalibr_calibration(three_cameras(true)); },
+  EXPECT_THAT([] { kalibr_calibration(three_cameras(true).cameras, imu_of_test()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("camera 'left' has k3")));
   RigConfig rig = three_cameras(true);
   rig.cameras[2].role = "2nd";
-  EXPECT_THAT([&] { opencv_calibration(rig); },
+  EXPECT_THAT([&] { opencv_calibration(rig.cameras, imu_of_test()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("camera '2nd': OpenCV's files need names")));
 }
 
