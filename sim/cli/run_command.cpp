@@ -84,8 +84,11 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
     fmt::print("  nearest obstacle: {:.2f} m to {} at {:.1f} s\n", result.closest_obstacle.distance_m,
                result.closest_obstacle.what, result.closest_obstacle.t_s);
   }
-  fmt::print("  {:.2f} times real time: {:.1f} s; per instant of the cameras: drawing {:.1f} ms, deciding {:.1f} ms\n",
-             result.realtime_factor, result.wall_s, result.render_ms.median_ms, result.decision_ms.median_ms);
+  fmt::print(
+      "  {:.2f} times real time: {:.1f} s, physics at {} Hz; per instant of the cameras: drawing {:.1f} ms, deciding "
+      "{:.1f} ms\n",
+      result.realtime_factor, result.wall_s, result.physics_rate_hz, result.render_ms.median_ms,
+      result.decision_ms.median_ms);
   if (!result.truth_used.empty()) fmt::print("  truth used: {}\n", fmt::join(result.truth_used, "; "));
   for (const CheckResult& check : result.checks) print_check(check);
   if (result.checks.empty()) fmt::print("  no checks defined\n");

@@ -152,6 +152,7 @@ struct FlightResult {
   /// was entirely measured.
   std::vector<std::string> truth_used;
   std::vector<std::string> failures;  ///< injected by the scenario: "20 s to 22 s: camera.front black"
+  int64_t physics_rate_hz = 0;        ///< steps of the flight dynamics per second
   double flight_time_s = 0.0, path_length_m = 0.0, mean_speed_mps = 0.0;
   ClosestApproach closest_obstacle, closest_ground;
   std::optional<double> goal_distance_m;  ///< horizontal, at the end; nullopt without a goal

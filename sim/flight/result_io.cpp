@@ -147,6 +147,7 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
   json["cause"] = result.cause;
   json["truth_used"] = result.truth_used;
   json["failures"] = result.failures;
+  json["physics_rate_hz"] = result.physics_rate_hz;
   json["flight_time_s"] = json_number(result.flight_time_s);
   json["path_length_m"] = json_number(result.path_length_m);
   json["min_clearance_m"] = json_number(closest.distance_m);
@@ -197,6 +198,7 @@ RunResult result_from_json(const Json& json) {
   flight.cause = result.text("cause");
   flight.truth_used = result.texts("truth_used");
   flight.failures = result.texts("failures");
+  flight.physics_rate_hz = result.count("physics_rate_hz");
   flight.flight_time_s = result.finite_number("flight_time_s");
   flight.path_length_m = result.number("path_length_m");
   flight.mean_speed_mps = result.number("mean_speed_mps");

@@ -46,7 +46,7 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer,
                  uint64_t seed, std::span<const FailureConfig> failures)
-    : renderer_(renderer), failures_(failures.begin(), failures.end()) {
+    : ticks_(ticks), renderer_(renderer), failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
   for (const scenes::Mesh& mesh : scene.meshes) first_mover_label_ += static_cast<int>(mesh.chunks.size());
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -57,7 +57,6 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
     detectors_.push_back(detector_of(camera, scene, seed, path));
     samples_.push_back(camera.samples);
     periods_.push_back(ticks.period(camera.rate_hz));
-    period_ns_.push_back(ticks.t_ns(periods_.back()));
     mounted_.push_back({camera.role, camera.model(), camera.X_BC(), camera.rate_hz});
     truly_mounted_.push_back(mounted_.back());
     truly_mounted_.back().X_BC = true_X_BC(camera, mounted_.back().model, seed);

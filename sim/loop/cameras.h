@@ -87,11 +87,12 @@ class Cameras {
 
  private:
   Imperfections::FrameFault frame_fault(size_t camera, int64_t t_ns) const;
-  int64_t image_number(size_t camera, int64_t t_ns) const { return t_ns / period_ns_[camera]; }
+  int64_t image_number(size_t camera, int64_t t_ns) const { return ticks_.tick(t_ns) / periods_[camera]; }
   void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
   void draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out);
   double image_speed_pxps(size_t camera, const Instant& now) const;
 
+  const Ticks ticks_;
   Renderer& renderer_;
   std::vector<ImageChannel> channels_;  ///< to draw; grey for a corner detector
   std::vector<std::optional<CornerDetector>> detectors_;
@@ -100,7 +101,6 @@ class Cameras {
   std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
   std::vector<scenes::Motion> movers_;
   int first_mover_label_ = 1;
-  std::vector<int64_t> period_ns_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;
   std::vector<FailureConfig> failures_;

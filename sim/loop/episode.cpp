@@ -13,7 +13,7 @@ namespace hedgehop::sim {
 Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher,
                  MapObserver* map_observer)
     : scenario_(scenario),
-      ticks_(scenario.physics_rate_hz),
+      ticks_(scenario.physics_rate_hz.value()),
       environment_(environment),
       aircraft_(scenario, ticks_, std::move(parts.aircraft)),
       cameras_(scenario.rig, ticks_, *environment.scene, environment.renderer, scenario.seed, scenario.failures),
@@ -80,6 +80,7 @@ Flight Episode::flight() const {
   result.truth_used = pilot_.truth_used();
   for (const FailureConfig& failure : scenario_.failures) result.failures.push_back(to_text(failure));
   result.goal_distance_m = goal_distance_m();
+  result.physics_rate_hz = *scenario_.physics_rate_hz;
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
   result.velocimeter_ms = velocimetry_.summary();

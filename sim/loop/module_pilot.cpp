@@ -53,6 +53,7 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
     const int64_t blind_ns = avoidance::blind_after_ns(cameras_.mounted(camera).rate_hz);
     blind_after_ = std::max(blind_after_, ticks_.ticks(seconds(blind_ns)));
   }
+  first_decision_ = last_seen_ = ticks_.ticks(scenario.start.hold_s);
   latency_ =
       scenario.command_latency_s ? ticks_.ticks(*scenario.command_latency_s) : std::max(slowest, decision_period_);
 }
@@ -67,12 +68,14 @@ void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynam
 }
 
 bool ModulePilot::exposes(int64_t tick) const {
-  return std::ranges::any_of(module_cameras_, [&](size_t camera) { return cameras_.due(camera, tick); });
+  return tick >= first_decision_ &&
+         std::ranges::any_of(module_cameras_, [&](size_t camera) { return cameras_.due(camera, tick); });
 }
 
 void ModulePilot::expose(int64_t tick, const BodyMotion& body) {
   seen_.clear();
   exposed_ = false;
+  if (tick < first_decision_) return;
   for (const size_t camera : module_cameras_) {
     if (!cameras_.due(camera, tick)) continue;
     exposed_ = true;
@@ -84,7 +87,7 @@ void ModulePilot::expose(int64_t tick, const BodyMotion& body) {
 }
 
 bool ModulePilot::decides(int64_t tick) const {
-  if (module_cameras_.empty()) return tick % decision_period_ == 0;
+  if (module_cameras_.empty()) return tick >= first_decision_ && tick % decision_period_ == 0;
   return !seen_.empty() || (exposed_ && tick - last_seen_ > blind_after_);
 }
 

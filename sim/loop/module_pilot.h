@@ -30,7 +30,7 @@ class ModulePilot {
   /// Throws InputError if the module cannot be reset.
   void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
-  /// Whether one of the module's cameras exposes on this tick.
+  /// Whether one of the module's cameras exposes on this tick. During the hold at the start, none does.
   bool exposes(int64_t tick) const;
   /// Exposes the module's cameras that are due.
   void expose(int64_t tick, const BodyMotion& body);
@@ -75,7 +75,7 @@ class ModulePilot {
   std::unique_ptr<avoidance::Module> module_;
   std::vector<size_t> module_cameras_;
   std::vector<std::string> truth_used_;
-  int64_t decision_period_ = 0, latency_ = 0, blind_after_ = 0, last_seen_ = 0;  ///< ticks
+  int64_t first_decision_ = 0, decision_period_ = 0, latency_ = 0, blind_after_ = 0, last_seen_ = 0;  ///< ticks
   bool exposed_ = false;  ///< whether one of the module's cameras was due on this tick
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick

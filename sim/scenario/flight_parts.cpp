@@ -21,7 +21,7 @@ FlightParts::~FlightParts() = default;
 dynamics::air::Wind build_wind(const Scenario& scenario) { return {scenario.wind, stream_seed(scenario.seed, "wind")}; }
 
 dynamics::Avionics build_avionics(const Scenario& scenario, const dynamics::VehicleConfig& carrier) {
-  return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz),
+  return {scenario.avionics, carrier, 1.0 / static_cast<double>(scenario.physics_rate_hz.value()),
           [&](std::string_view name) { return stream_seed(scenario.seed, name); },
           sensor_failures(scenario.failures, scenario.seed)};
 }

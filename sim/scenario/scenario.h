@@ -30,6 +30,7 @@ struct StartConfig {
   double altitude_m = 10.0;  ///< above W's origin, positive up
   double heading_rad = 0.0;  ///< from north to east
   double spread_m = 0.0;
+  double hold_s = 0.0;  ///< hover before the module's first decision
 
   /// The position without the spread, in W, m.
   Eigen::Vector3d p_WB() const { return {north_m, east_m, -altitude_m}; }
@@ -47,6 +48,11 @@ void describe(Visitor& v, fields::ConfigOf<StartConfig> auto& c) {
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "direction of the nose, from north to east"});
   v("spread", c.spread_m,
     {.unit = "m", .at_least = 0.0, .meaning = "radius of the horizontal disc from which the seed draws the start"});
+  v("hold", c.hold_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .at_most = 3600.0,
+     .meaning = "hover before the module's first decision; sensors and cameras already deliver"});
 }
 
 /// Goal or waypoint: a vertical cylinder.
@@ -146,7 +152,7 @@ struct Scenario {
   std::string description;
   uint64_t seed = 1;
   double duration_s = 60.0;
-  int64_t physics_rate_hz = 500;
+  std::optional<int64_t> physics_rate_hz;  ///< default: set_physics_rate()
   int64_t control_rate_hz = 100;
   std::optional<double> command_latency_s;  ///< default: the period of the module's cameras
   scenes::SceneConfig scene;
@@ -175,7 +181,12 @@ void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("seed", c.seed, {.meaning = "seed of every random stream of the flight"});
   v("duration", c.duration_s, {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "maximum flight time"});
   v("physics_rate", c.physics_rate_hz,
-    {.unit = "Hz", .at_least = 50, .at_most = 10000, .meaning = "physics rate; must divide 1e9"});
+    {.unit = "Hz",
+     .at_least = 50,
+     .at_most = 10000,
+     .meaning =
+         "physics rate; default: the smallest from 500 to 2000 Hz that the rates of control, sensors and cameras "
+         "divide"});
   v("control_rate", c.control_rate_hz,
     {.unit = "Hz", .at_least = 1, .meaning = "autopilot rate; must divide the physics rate"});
   v("command_latency", c.command_latency_s,

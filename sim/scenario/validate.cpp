@@ -14,6 +14,7 @@
 #include "avoidance/module.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/avoidance_config.h"
+#include "sim/scenario/rates.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -22,7 +23,7 @@ using Channel = CameraConfig::Channel;
 
 class Validator {
  public:
-  Validator(const Scenario& scenario, ModuleSource source) : scenario_(scenario), source_(source) {}
+  Validator(Scenario& scenario, ModuleSource source) : scenario_(scenario), source_(source) {}
 
   /// Returns whether every field is within its bounds.
   bool bounds() {
@@ -53,18 +54,9 @@ class Validator {
   }
 
   void rates() {
-    constexpr int64_t kNsPerS = 1'000'000'000;
-    const int64_t physics = scenario_.physics_rate_hz;
-    if (kNsPerS % physics != 0) {
-      add("physics_rate",
-          fmt::format("{} Hz does not divide 1e9, so a step is no whole number of nanoseconds", physics));
-      return;
-    }
-    divides_physics("control_rate", static_cast<double>(scenario_.control_rate_hz));
-    for (size_t i = 0; i < scenario_.rig.cameras.size(); ++i) {
-      divides_physics(fmt::format("rig.cameras.{}.rate", i), scenario_.rig.cameras[i].rate_hz);
-    }
-    if (scenario_.film.enabled) divides_physics("film.rate", scenario_.film.rate_hz);
+    const std::vector<FieldError> errors = set_physics_rate(scenario_);
+    sensor_rates_fit_ = std::ranges::none_of(errors, [](const auto& e) { return e.path.starts_with("avionics."); });
+    add_all(errors);
   }
 
   void rig() {
@@ -146,7 +138,7 @@ class Validator {
     build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
     // If the vehicle is invalid, the avionics are checked with a valid one, so that each error is reported once.
     const dynamics::VehicleConfig carrier = vehicle_ ? scenario_.vehicle : dynamics::VehicleConfig{};
-    build("avionics", [&] { avionics_.emplace(build_avionics(scenario_, carrier)); });
+    if (sensor_rates_fit_) build("avionics", [&] { avionics_.emplace(build_avionics(scenario_, carrier)); });
   }
 
   void checks() { add_all(check_errors(scenario_)); }
@@ -187,13 +179,6 @@ class Validator {
     }
   }
 
-  void divides_physics(const std::string& path, double rate_hz) {
-    const double steps = static_cast<double>(scenario_.physics_rate_hz) / rate_hz;
-    constexpr double kRoundOff = 1e-9;
-    if (steps >= 1.0 && std::abs(steps - std::round(steps)) <= kRoundOff * steps) return;
-    add(path, fmt::format("{} Hz does not divide the physics rate of {} Hz", rate_hz, scenario_.physics_rate_hz));
-  }
-
   /// Runs a builder; adds an error if the part cannot be built.
   template <class Build>
   void build(const std::string& path, Build&& build) {
@@ -208,13 +193,14 @@ class Validator {
 
   void add_all(std::vector<FieldError> errors) { std::ranges::move(errors, std::back_inserter(errors_)); }
 
-  const Scenario& scenario_;
+  Scenario& scenario_;
   ModuleSource source_;
   std::vector<FieldError> errors_;
   std::optional<dynamics::Vehicle> vehicle_;
   std::optional<dynamics::air::Wind> wind_;
   std::optional<dynamics::Avionics> avionics_;
   std::unique_ptr<avoidance::Module> module_;
+  bool sensor_rates_fit_ = true;
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ class Simulation::Impl {
 
   void fly_to(double t_s) {
     const Stopwatch stopwatch(flying_s_);
-    const double half_tick_s = 0.5 / static_cast<double>(scenario_.physics_rate_hz);
+    const double half_tick_s = 0.5 / static_cast<double>(scenario_.physics_rate_hz.value());
     while (!episode_->over() && episode_->t_s() + half_tick_s < t_s) episode_->tick();
     if (episode_->t_s() + half_tick_s >= t_s) return;
     const FlightResult ended = episode_->flight().result;

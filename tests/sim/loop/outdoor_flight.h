@@ -12,7 +12,7 @@ class OutdoorFlight {
 
   explicit OutdoorFlight(const dynamics::VehicleConfig& vehicle)
       : scenario_(in_turbulence(vehicle)),
-        ticks_(scenario_.physics_rate_hz),
+        ticks_(*scenario_.physics_rate_hz),
         world_(between_walls(), dynamics::hull(vehicle)),
         aircraft_(scenario_, ticks_, build_aircraft(scenario_)) {
     aircraft_.reset(world_);
@@ -37,6 +37,7 @@ class OutdoorFlight {
  private:
   static Scenario in_turbulence(const dynamics::VehicleConfig& vehicle) {
     Scenario scenario;
+    scenario.physics_rate_hz = 500;
     scenario.vehicle = vehicle;
     scenario.avionics.barometer.enabled = scenario.avionics.range_finder.ranger.enabled = true;
     scenario.wind = {.speed_mps = 5.0, .from_rad = 1.0, .roughness_m = 0.046, .turbulence_w20_mps = 15.4};

@@ -55,6 +55,31 @@ TEST(Stepping, DecisionByDecisionAndTickByTickGiveTheWholeFlight) {
   EXPECT_EQ(whole.result.decisions, 51);
 }
 
+TEST(Stepping, ImagesOf30HzAreAtTheExactTimesRoundedToNanoseconds) {
+  Simulation simulation(load_scenario(
+      config("shah2009_avoid.yaml"),
+      std::vector<std::string>{"rig.cameras.0.rate=30", "duration=2", "checks=[]", "film.enabled=false"}));
+  for (int64_t image = 0; !simulation.over(); ++image, simulation.step()) {
+    EXPECT_EQ(simulation.seen().t_ns, std::llround(static_cast<double>(image) * 1e9 / 30.0));
+  }
+  EXPECT_EQ(simulation.result().result.physics_rate_hz, 600);
+  EXPECT_EQ(simulation.result().result.decisions, 61);
+}
+
+TEST(Stepping, AHoldAtTheStartIsAHoverBeforeTheFirstDecision) {
+  Simulation simulation(city({"start.hold=1.5", "wind={}"}));
+  const Eigen::Vector3d p_WB_start = simulation.truth().p_WB;
+  while (simulation.t_s() < 1.499) {
+    EXPECT_FALSE(simulation.decides());
+    simulation.tick();
+    EXPECT_LT((simulation.truth().p_WB - p_WB_start).norm(), 0.3);
+  }
+  while (!simulation.over()) simulation.tick();
+  const Flight flight = simulation.result();
+  EXPECT_NEAR(flight.decisions.front().t_s, 1.52, 1e-9);  // the first image at 25 Hz
+  EXPECT_EQ(flight.result.decisions, 13);
+}
+
 TEST(Stepping, ResetBeginsTheSameFlightOrThatOfAnotherSeed) {
   Simulation used(city());
   const Flight first = used.run();
