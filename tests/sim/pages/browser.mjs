@@ -1,29 +1,29 @@
-// node browser.mjs CHROMIUM PAGE.html STEPS.js [PICTURE.png [WIDTHxHEIGHT]]
-// Opens a page from its file in a headless Chromium without network, runs STEPS in it (the body of an async function)
-// and prints JSON: {value, errors: [...], requests: [...], opened_ms}. `requests` has whatever the page asked for besides
-// itself; opened_ms is from the call to the first frame drawn after the page's scripts.
+// node browser.mjs CHROMIUM
+// Opens pages from their files in one headless Chromium without network. Each line of standard input is a visit,
+// {page, steps, image: PICTURE.png, width, height}, the last three optional: it runs `steps` in the page (the body of an
+// async function) and prints one line, {value, errors: [...], requests: [...], opened_ms} or {failed}. `requests` has
+// whatever the page asked for besides itself; opened_ms is from the call to the first frame drawn after the page's scripts.
 import {spawn} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {createInterface} from 'node:readline';
 import {pathToFileURL} from 'node:url';
 
-const [chromium, page, steps, image, size = '1400x1000'] = process.argv.slice(2);
-const [width, height] = size.split('x').map(Number);
 const profile = mkdtempSync(join(tmpdir(), 'hedgehop-chromium-'));
-const browser = spawn(chromium, ['--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader',
+const browser = spawn(process.argv[2], ['--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader',
   '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--hide-scrollbars', `--user-data-dir=${profile}`, '--remote-debugging-pipe', 'about:blank'],
   {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true});  // a group of its own, to be ended as one
 
 // Chromium speaks its DevTools protocol over two pipes, messages ended by a zero byte.
-const waiting = new Map(), listeners = [];
+const waiting = new Map(), listeners = new Map();
 let rest = '', last = 0;
 browser.stdio[4].setEncoding('utf8').on('data', (text) => {
   const messages = (rest + text).split('\0');
   rest = messages.pop();
   for (const message of messages.map((m) => JSON.parse(m))) {
-    if (!message.id) listeners.forEach((listen) => listen(message));
+    if (!message.id) listeners.get(message.sessionId)?.(message);
     else if (message.error) waiting.get(message.id).reject(new Error(message.error.message));
     else waiting.get(message.id).resolve(message.result);
   }
@@ -34,7 +34,7 @@ function send(method, params = {}, sessionId = undefined) {
   return new Promise((resolve, reject) => waiting.set(id, {resolve, reject}));
 }
 
-async function visit() {
+async function visit({page, steps, image, width = 1400, height = 1000}) {
   const {targetInfos} = await send('Target.getTargets');
   const {targetId} = targetInfos.find(({type}) => type === 'page');
   const {sessionId} = await send('Target.attachToTarget', {targetId, flatten: true});
@@ -42,7 +42,7 @@ async function visit() {
   const errors = [], requests = [], url = pathToFileURL(page).href;
   let loaded;
   const load = new Promise((resolve) => { loaded = resolve; });
-  listeners.push(({method, params}) => {
+  listeners.set(sessionId, ({method, params}) => {
     if (method === 'Runtime.exceptionThrown') errors.push(params.exceptionDetails.exception?.description || params.exceptionDetails.text);
     if (method === 'Runtime.consoleAPICalled' && ['error', 'warning', 'assert'].includes(params.type)) {
       errors.push(params.args.map((a) => a.value ?? a.description).join(' '));
@@ -68,33 +68,32 @@ async function visit() {
   await load;
   await run(frame);
   const opened_ms = Math.round(performance.now() - began);
-  const value = await run(readFileSync(steps, 'utf8'));
+  const value = await run(steps);
   await run(frame);
   if (image) {
     const {data} = await ask('Page.captureScreenshot', {format: 'png'});
     writeFileSync(image, Buffer.from(data, 'base64'));
   }
+  await send('Target.detachFromTarget', {sessionId});
+  listeners.delete(sessionId);
   return {value: value ?? null, errors, requests, opened_ms};
 }
 
 const gone = new Promise((resolve) => browser.on('exit', resolve));
 const end = () => { try { process.kill(-browser.pid, 'SIGKILL'); } catch { /* gone already */ } };
-const late = setTimeout(end, 90_000);
 /// Chromium's helpers may write into the profile until they are gone.
 async function removeProfile() {
   for (let tries = 50; tries > 0; --tries) {
     try { return rmSync(profile, {recursive: true, force: true}); } catch { await new Promise((later) => setTimeout(later, 100)); }
   }
 }
-try {
-  const answer = await Promise.race([visit(), gone.then(() => { throw new Error('Chromium ended too early'); })]);
-  console.log(JSON.stringify(answer));
-} catch (error) {
-  console.error(String(error));
-  process.exitCode = 1;
-} finally {
+for await (const line of createInterface({input: process.stdin})) {
+  const late = setTimeout(end, 90_000);
+  const ended = gone.then(() => { throw new Error('Chromium ended too early'); });
+  const answer = await Promise.race([visit(JSON.parse(line)), ended]).catch((error) => ({failed: String(error)}));
   clearTimeout(late);
-  end();
-  await gone;
-  await removeProfile();
+  console.log(JSON.stringify(answer));
 }
+end();
+await gone;
+await removeProfile();

@@ -75,8 +75,8 @@ TEST(ReportInBrowser, ShowsTheMapOfAModuleWithTheTruth) {
   const PageVisit page = visit(run.path() / "report.html", R"js(
     const canvas = document.querySelector('#landmarks canvas'), box = canvas.getBoundingClientRect();
     const tip = document.querySelector('#landmarks .tip'), met = {};
-    for (let x = 0; x < box.width; x += 4) {
-      for (let y = 0; y < box.height; y += 4) {
+    for (let x = 0; x < box.width; x += 12) {  // a text is shown within 9 px
+      for (let y = 0; y < box.height; y += 12) {
         canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + x, clientY: box.y + y}));
         met[tip.children[0].textContent] = tip.children[1]?.textContent;
       }
@@ -143,11 +143,16 @@ TEST(ReportInBrowser, HasNoMapWithoutAMapAndNoSummaryWithoutACollision) {
   EXPECT_TRUE(page.value.get<bool>());
 }
 
+/// Visits a replay in a small window, because the processor draws it.
+PageVisit visit_replay(const std::filesystem::path& run, const std::string& steps) {
+  return visit(run / "replay.html", steps, 480, 360);
+}
+
 TEST(ReplayInBrowser, PlacesTheVehicleAtItsTruePose) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_replay(run.path(), read_run(run.path()));
-  const PageVisit page = visit(run.path() / "replay.html", R"js(
+  const PageVisit page = visit_replay(run.path(), R"js(
     const time = document.getElementById('time'), places = [];
     for (const t of [0, 3.21, 7.5]) {
       time.value = t;
@@ -187,7 +192,7 @@ TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
     write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
                        fake_flight(10.0, 1));
     write_replay(run.path(), read_run(run.path()));
-    const PageVisit page = visit(run.path() / "replay.html", R"js(
+    const PageVisit page = visit_replay(run.path(), R"js(
       const camera = document.getElementById('camera');
       camera.value = 'above';
       camera.dispatchEvent(new Event('change'));
@@ -202,7 +207,7 @@ TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_replay(run.path(), read_run(run.path()));
-  const PageVisit page = visit(run.path() / "replay.html", R"js(
+  const PageVisit page = visit_replay(run.path(), R"js(
     const frames = async (n) => { while (n--) await new Promise(requestAnimationFrame); };
     const set = (id, value) => {
       const element = document.getElementById(id);
