@@ -20,6 +20,20 @@ struct Step {
 constexpr Step kSteps[8] = {{-1, 0, 1.0},         {1, 0, 1.0},         {0, -1, 1.0},        {0, 1, 1.0},
                             {-1, -1, 1.41421356}, {-1, 1, 1.41421356}, {1, -1, 1.41421356}, {1, 1, 1.41421356}};
 
+/// Costs of a straight and of a diagonal step by the sum of the prices of both cells.
+using StepCosts = std::array<std::array<int, 2 * 255 + 1>, 2>;
+
+StepCosts step_costs() {
+  StepCosts costs;
+  for (size_t sum = 0; sum < costs[0].size(); ++sum) {
+    const double mean = 0.5 * static_cast<double>(sum);
+    for (const Step& step : {kSteps[0], kSteps[4]}) {
+      costs[step.length > 1.0][sum] = std::max(1, static_cast<int>(std::lround(mean * step.length)));
+    }
+  }
+  return costs;
+}
+
 constexpr double kSquareM = 3.0, kHighM = 1.2;
 constexpr int kSquares = 4;             // number of squares around that of the vehicle
 constexpr double kBothWaysPrice = 3.5;  // cost of a meter of climb and descent, in meters of path
@@ -103,6 +117,7 @@ bool RouteField::cuts_corner(int row, int col, int rows, int cols) const {
 
 /// Dijkstra's search with one bucket for each cost.
 void RouteField::spread() {
+  static const StepCosts kCosts = step_costs();
   const int n = slice_->side();
   for (size_t bucket = 0; waiting_ > 0 && bucket < buckets_.size(); ++bucket) {
     for (size_t i = 0; i < buckets_[bucket].size(); ++i) {
@@ -110,13 +125,15 @@ void RouteField::spread() {
       --waiting_;
       if (cost_[static_cast<size_t>(cell)] != static_cast<int>(bucket)) continue;
       const int row = cell / n, col = cell % n;
+      const bool inside = row > 0 && col > 0 && row < n - 1 && col < n - 1;
       for (const Step& step : kSteps) {
-        if (!slice_->contains(row + step.row, col + step.col)) continue;
-        const int next = (row + step.row) * n + col + step.col;
+        if (!inside && !slice_->contains(row + step.row, col + step.col)) continue;
+        const int next = cell + step.row * n + step.col;
+        if (cost_[static_cast<size_t>(next)] <= static_cast<int>(bucket)) continue;
         const int price = price_[static_cast<size_t>(next)];
         if (price == 0 || cuts_corner(row, col, step.row, step.col)) continue;
-        const double mean = 0.5 * (price + price_[static_cast<size_t>(cell)]);
-        push(next, static_cast<int>(bucket) + std::max(1, static_cast<int>(std::lround(mean * step.length))));
+        const auto sum = static_cast<size_t>(price + price_[static_cast<size_t>(cell)]);
+        push(next, static_cast<int>(bucket) + kCosts[step.length > 1.0][sum]);
       }
     }
   }

@@ -2,50 +2,97 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cstring>
+#include <limits>
 #include <opencv2/imgproc.hpp>
+
+#include "vision/stereo/cost_lanes.h"
 
 namespace hedgehop::vision::mapping {
 namespace {
 
 constexpr int kPx = DepthBlocks::kBlockPx;
 
+using stereo::Lanes8, stereo::load, stereo::load_bytes;  // one row of a block
+static_assert(kPx == 8);
+
+int sum(const Lanes8& lanes, int begin, int end) {
+  int total = 0;
+  for (int i = begin; i < end; ++i) total += lanes[i];
+  return total;
+}
+
+/// The largest numbers of each of eight lanes, largest first.
+class LargestByLane {
+ public:
+  static constexpr int kCount = 5;
+
+  void add(Lanes8 numbers) {
+    for (Lanes8& large : largest_) {
+      const Lanes8 smaller = stereo::minimum(large, numbers);
+      large = large > numbers ? large : numbers;
+      numbers = smaller;
+    }
+  }
+
+  /// Returns the number with `rank` larger or equal ones before it among all lanes. @param rank  0..kCount - 1.
+  int16_t at(int rank) const {
+    std::array<std::array<int16_t, 8>, kCount> numbers;
+    std::memcpy(numbers.data(), largest_.data(), sizeof numbers);
+    std::array<size_t, 8> used{};
+    int16_t largest = 0;
+    for (int i = 0; i <= rank; ++i) {
+      size_t best = 0;
+      for (size_t lane = 1; lane < 8; ++lane) {
+        if (numbers[used[lane]][lane] > numbers[used[best]][best]) best = lane;
+      }
+      largest = numbers[used[best]++][best];
+    }
+    return largest;
+  }
+
+ private:
+  static constexpr int16_t kNone = std::numeric_limits<int16_t>::min();
+  static constexpr Lanes8 kNones = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+  std::array<Lanes8, kCount> largest_ = {kNones, kNones, kNones, kNones, kNones};
+};
+
 /// Sets the kind and the nearest disparity of a block. The few largest disparities are ignored, because single pixels
 /// can be wrong, while a pole one pixel wide covers a column of eight.
 void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row, int col, DepthBlock& block) {
   constexpr int kMinMatched = kPx * kPx / 2;  // half of a block
   constexpr int kMinNear = 6;                 // pixels of a pole one pixel wide
-  std::array<int16_t, kPx * kPx> matched;
-  int count = 0, certain = 0;
+  LargestByLane largest;
+  Lanes8 matched{}, uncertain{};  // minus the numbers of such pixels
   for (int v = row * kPx; v < (row + 1) * kPx; ++v) {
-    const auto* const d = disparity16.ptr<int16_t>(v) + col * kPx;
-    const auto* const s = smeared.ptr<uint8_t>(v) + col * kPx;
-    for (int u = 0; u < kPx; ++u) {
-      matched[static_cast<size_t>(count)] = d[u];
-      count += d[u] >= 0;
-      certain += d[u] >= 0 && s[u] == 0;
-    }
+    const auto d = load<Lanes8>(disparity16.ptr<int16_t>(v) + col * kPx);
+    const auto s = load_bytes<Lanes8>(smeared.ptr<uint8_t>(v) + col * kPx);
+    largest.add(d);
+    matched += d >= 0;
+    uncertain += (d >= 0) & (s != 0);
   }
+  const int count = -sum(matched, 0, kPx), certain = count + sum(uncertain, 0, kPx);
   block.kind = certain >= kMinMatched ? DepthBlock::Kind::matched
                : count >= kMinMatched ? DepthBlock::Kind::smeared
                                       : DepthBlock::Kind::unknown;
-  block.near16 = -1;
-  if (count < kMinNear) return;
-  const auto rank = matched.begin() + std::max(2, count / 16);
-  std::nth_element(matched.begin(), rank, matched.begin() + count, std::greater<>());
-  block.near16 = *rank;
+  static_assert(LargestByLane::kCount > kPx * kPx / 16);
+  block.near16 = count < kMinNear ? int16_t{-1} : largest.at(std::max(2, count / 16));
 }
 
 void read_grey(const cv::Mat& grey, int row, int col, DepthBlock& block) {
   constexpr int kHalf = kPx / 2;
   std::array<int, 4> quarter{};
-  for (int v = 0; v < kPx; ++v) {
-    const auto* const g = grey.ptr<uint8_t>(row * kPx + v) + col * kPx;
-    for (int u = 0; u < kPx; ++u) quarter[static_cast<size_t>(2 * (v / kHalf) + u / kHalf)] += g[u];
+  for (int half = 0; half < 2; ++half) {
+    Lanes8 sums{};
+    for (int v = 0; v < kHalf; ++v) {
+      sums += load_bytes<Lanes8>(grey.ptr<uint8_t>(row * kPx + half * kHalf + v) + col * kPx);
+    }
+    quarter[static_cast<size_t>(2 * half)] = sum(sums, 0, kHalf);
+    quarter[static_cast<size_t>(2 * half + 1)] = sum(sums, kHalf, kPx);
   }
   const auto [darkest, brightest] = std::ranges::minmax(quarter);
-  const int sum = quarter[0] + quarter[1] + quarter[2] + quarter[3];
-  block.grey = static_cast<uint8_t>(sum / (kPx * kPx));
+  const int total = quarter[0] + quarter[1] + quarter[2] + quarter[3];
+  block.grey = static_cast<uint8_t>(total / (kPx * kPx));
   block.range = static_cast<uint8_t>((brightest - darkest) / (kHalf * kHalf));
 }
 
@@ -58,14 +105,13 @@ void find_valleys(const cv::Mat& grey, cv::Mat& valleys) {
 
 /// Returns whether a block contains enough of a valley to be part of a line.
 bool is_lined(const cv::Mat& valleys, int row, int col) {
-  constexpr int kDarker = 25,
-                kMinDarkPixels = 4;  // grey levels, above noise; pixels, half of a line through the block
-  int dark = 0;
+  constexpr int16_t kDarker = 25;    // grey levels, above noise
+  constexpr int kMinDarkPixels = 4;  // half of a line through the block
+  Lanes8 dark{};
   for (int v = 0; v < kPx; ++v) {
-    const auto* const g = valleys.ptr<uint8_t>(row * kPx + v) + col * kPx;
-    for (int u = 0; u < kPx; ++u) dark += g[u] > kDarker;
+    dark += load_bytes<Lanes8>(valleys.ptr<uint8_t>(row * kPx + v) + col * kPx) > kDarker;
   }
-  return dark >= kMinDarkPixels;
+  return -sum(dark, 0, kPx) >= kMinDarkPixels;
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
+
+#include "vision/flow/wide_integers.h"
 
 namespace hedgehop::vision::mapping {
 namespace {
@@ -25,6 +28,38 @@ constexpr double kPlacedM = 0.25, kReportedM = 1.0;
 int modulo(int a, int n) {
   const int m = a % n;
   return m < 0 ? m + n : m;
+}
+
+/// View of a row of voxels: its first center in C, the distance between centers, and the image in blocks.
+struct RowView {
+  Eigen::Vector3f p_C, step_C;
+  float f, u0, v0;  ///< focal length and image center, blocks
+  int cols, rows;
+  float near_m, far_m;  ///< range of z in C
+};
+
+constexpr int kLanes = 8;
+using Floats [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+using Ints [[gnu::vector_size(kLanes * sizeof(int))]] = int;
+
+/// Computes the z in C of each voxel and the block that shows it; -1 outside the view. @param count  multiple of
+/// kLanes.
+HEDGEHOP_WIDE void find_blocks(const RowView& view, int count, float* z_m, int* block) {
+  const float x = view.p_C.x(), y = view.p_C.y(), z = view.p_C.z();
+  const float dx = view.step_C.x(), dy = view.step_C.y(), dz = view.step_C.z();
+  const auto cols = static_cast<float>(view.cols), rows = static_cast<float>(view.rows);
+  Floats steps = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
+  for (int i = 0; i < count; i += kLanes, steps += static_cast<float>(kLanes)) {
+    const Floats depth_m = z + steps * dz;
+    const Floats u = view.u0 + view.f * (x + steps * dx) / depth_m, v = view.v0 + view.f * (y + steps * dy) / depth_m;
+    const Ints seen =
+        (depth_m > view.near_m) & (depth_m <= view.far_m) & (u >= 0.0F) & (v >= 0.0F) & (u < cols) & (v < rows);
+    const Ints col = __builtin_convertvector(seen ? u : Floats{}, Ints),
+               row = __builtin_convertvector(seen ? v : Floats{}, Ints);
+    const Ints at = (row * view.cols + col) | ~seen;
+    std::memcpy(z_m + i, &depth_m, sizeof depth_m);
+    std::memcpy(block + i, &at, sizeof at);
+  }
 }
 
 }  // namespace
@@ -156,32 +191,35 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
 void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
                               const Eigen::Isometry3d& X_WC) {
   const Eigen::Isometry3d X_CW = X_WC.inverse();
-  const Eigen::Vector3f step_C = (config_.voxel_m * X_CW.linear().col(1)).cast<float>();
   const auto half_m = static_cast<float>(0.5 * config_.voxel_m);
-  const auto f = static_cast<float>(geometry.focal_px / DepthBlocks::kBlockPx);
-  const auto u0 = static_cast<float>(geometry.center_u_px / DepthBlocks::kBlockPx);
-  const auto v0 = static_cast<float>(geometry.center_v_px / DepthBlocks::kBlockPx);
-  const auto cols = static_cast<float>(blocks.cols()), rows = static_cast<float>(blocks.rows());
-  const auto far_m = static_cast<float>(config_.voxel_m * config_.across);
+  RowView view{.p_C = {},
+               .step_C = (config_.voxel_m * X_CW.linear().col(1)).cast<float>(),
+               .f = static_cast<float>(geometry.focal_px / DepthBlocks::kBlockPx),
+               .u0 = static_cast<float>(geometry.center_u_px / DepthBlocks::kBlockPx),
+               .v0 = static_cast<float>(geometry.center_v_px / DepthBlocks::kBlockPx),
+               .cols = blocks.cols(),
+               .rows = blocks.rows(),
+               .near_m = half_m,
+               .far_m = static_cast<float>(config_.voxel_m * config_.across)};
   const Index n = size();
   const int turn = n.y() - modulo(first_.y(), n.y());  // voxels of a row before the end of the ring buffer
+  const int in_row = (n.y() + kLanes - 1) / kLanes * kLanes;
+  std::vector<float> z_m(static_cast<size_t>(in_row));
+  std::vector<int> block(z_m.size());
   for (int z = first_.z(); z < first_.z() + n.z(); ++z) {
     for (int x = first_.x(); x < first_.x() + n.x(); ++x) {
-      const Eigen::Vector3f p_C = (X_CW * center({x, first_.y(), z})).cast<float>();
+      view.p_C = (X_CW * center({x, first_.y(), z})).cast<float>();
+      find_blocks(view, in_row, z_m.data(), block.data());
       size_t at = slot({x, first_.y(), z});
       for (int i = 0; i < n.y(); ++i, ++at) {
         if (i == turn) at -= static_cast<size_t>(n.y());
-        const auto steps = static_cast<float>(i);
-        const float z_m = p_C.z() + steps * step_C.z();
-        if (!(z_m > half_m) || z_m > far_m) continue;
-        const float u = u0 + f * (p_C.x() + steps * step_C.x()) / z_m;
-        const float v = v0 + f * (p_C.y() + steps * step_C.y()) / z_m;
-        if (!(u >= 0.0F && v >= 0.0F && u < cols && v < rows)) continue;
-        const float clear_m = clear_m_[static_cast<size_t>(static_cast<int>(v) * blocks.cols() + static_cast<int>(u))];
+        const auto voxel = static_cast<size_t>(i);
+        if (block[voxel] < 0) continue;
+        const float clear_m = clear_m_[static_cast<size_t>(block[voxel])];
         int8_t& odds = log_odds_[at];
-        if (z_m + half_m <= clear_m && !hit_[at]) {
+        if (z_m[voxel] + half_m <= clear_m && !hit_[at]) {
           odds = static_cast<int8_t>(std::max(kMinLogOdds, odds + kMiss));
-        } else if (clear_m == kInDoubt && z_m > kSurelyMatchedM && odds < 0) {
+        } else if (clear_m == kInDoubt && z_m[voxel] > kSurelyMatchedM && odds < 0) {
           odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
         }
       }

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <vector>
+
 #include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::mapping {
@@ -45,6 +49,30 @@ TEST(DepthBlocks, BlockWithFewMatchesIsUnknown) {
   blocks.build(disparity16, {}, 0);
   EXPECT_EQ(blocks.at(0, 0).kind, DepthBlock::Kind::unknown);
   EXPECT_EQ(blocks.at(0, 0).near16, 40);
+}
+
+// The oracle sorts the disparities of each block.
+TEST(DepthBlocks, NearestDisparityIsThatOfASortedBlock) {
+  cv::Mat disparity16(160, 240, CV_16SC1);
+  cv::RNG random(5);
+  random.fill(disparity16, cv::RNG::UNIFORM, -16, 48);
+  cv::Mat other(disparity16.size(), CV_16SC1);
+  random.fill(other, cv::RNG::UNIFORM, -1000, 600);
+  other.colRange(0, 120).copyTo(disparity16.colRange(0, 120));
+  DepthBlocks blocks;
+  blocks.build(disparity16, {}, 0);
+  for (int row = 0; row < blocks.rows(); ++row) {
+    for (int col = 0; col < blocks.cols(); ++col) {
+      std::vector<int16_t> matched;
+      for (int i = 0; i < 64; ++i) {
+        const auto d = disparity16.at<int16_t>(8 * row + i / 8, 8 * col + i % 8);
+        if (d >= 0) matched.push_back(d);
+      }
+      std::ranges::sort(matched, std::greater<>());
+      const int expected = matched.size() < 6 ? -1 : matched[std::max<size_t>(2, matched.size() / 16)];
+      EXPECT_EQ(blocks.at(row, col).near16, expected) << row << " " << col;
+    }
+  }
 }
 
 }  // namespace
