@@ -61,6 +61,19 @@ std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_C) const
   return std::visit([&](const auto& its_lens) { return its_lens.project(p_C); }, lens);
 }
 
+std::vector<Eigen::Vector2d> Camera::project_each(std::span<const Eigen::Vector3d> points_C) const {
+  std::vector<Eigen::Vector2d> pixels(points_C.size(), kNoPixel);
+  const auto project_by = [&](const auto& its_lens) {
+    if constexpr (requires { its_lens.project_each(points_C, pixels); }) {
+      its_lens.project_each(points_C, pixels);
+    } else {
+      for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = its_lens.project(points_C[i]).value_or(kNoPixel);
+    }
+  };
+  std::visit(project_by, lens);
+  return pixels;
+}
+
 std::optional<Eigen::Vector3d> Camera::unit_ray(const Eigen::Vector2d& pixel) const {
   return std::visit([&](const auto& its_lens) { return its_lens.unit_ray(pixel); }, lens);
 }

@@ -18,7 +18,8 @@ ImageDerotator::ImageDerotator(const Camera& camera, const cv::Mat& mask)
   nodes_ = {(box_.width + kNodePx - 1) / kNodePx + 1, (box_.height + kNodePx - 1) / kNodePx + 1};
   for (int row = 0; row < nodes_.height; ++row) {
     for (int col = 0; col < nodes_.width; ++col) {
-      node_rays_.push_back(camera.unit_ray({box_.x + col * kNodePx, box_.y + row * kNodePx}));
+      const auto ray_C = camera.unit_ray({box_.x + col * kNodePx, box_.y + row * kNodePx});
+      node_rays_.push_back(ray_C.value_or(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())));
     }
   }
   for (int row = box_.y; row < box_.br().y; ++row) {
@@ -34,12 +35,10 @@ cv::Mat ImageDerotator::source_pixels(const Eigen::Matrix3d& R_C1C2) const {
   constexpr double kOutside = -100.0;
   cv::Mat places(box_.size(), CV_32FC2, cv::Scalar::all(kOutside));
   const Eigen::Matrix3d R_C2C1 = R_C1C2.transpose();
-  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::vector<Eigen::Vector2d> nodes;
-  for (const auto& ray_C : node_rays_) {
-    const auto pixel = ray_C ? camera_.project(R_C2C1 * *ray_C) : std::nullopt;
-    nodes.push_back(pixel.value_or(unknown));
-  }
+  std::vector<Eigen::Vector3d> rays_C2;
+  rays_C2.reserve(node_rays_.size());
+  for (const Eigen::Vector3d& ray_C1 : node_rays_) rays_C2.emplace_back(R_C2C1 * ray_C1);
+  const std::vector<Eigen::Vector2d> nodes = camera_.project_each(rays_C2);
   const auto columns = static_cast<size_t>(nodes_.width);
   std::vector<Eigen::Vector2d> line(columns);  // nodes of one row of pixels
   int line_row = -1;

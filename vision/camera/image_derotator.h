@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <vector>
 
 #include "vision/camera/camera.h"
@@ -37,7 +36,7 @@ class ImageDerotator {
   cv::Rect box_;
   std::vector<Ray> rays_;  ///< of the pixels in the mask, row by row
   cv::Size nodes_;
-  std::vector<std::optional<Eigen::Vector3d>> node_rays_;  ///< of every fourth row and column of the box
+  std::vector<Eigen::Vector3d> node_rays_;  ///< of every fourth row and column of the box; NaN without a ray
 };
 
 }  // namespace hedgehop::vision::camera

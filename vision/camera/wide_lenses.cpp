@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/libm/many.h"
+
 namespace hedgehop::vision::camera {
 namespace {
 
@@ -48,13 +50,39 @@ double FisheyeLens::growth_limit_rad() const {
   return std::fmin(angle_rad, std::numbers::pi);
 }
 
+namespace {
+
+/// Projects a point at a known distance from the axis and angle off the axis.
+std::optional<Eigen::Vector2d> project_at(const FisheyeLens& lens, const Eigen::Vector3d& p_C, double aside,
+                                          double angle_rad) {
+  if (!(angle_rad < lens.limit_rad) || !(p_C.squaredNorm() > 0.0)) return std::nullopt;
+  if (aside == 0.0) return Eigen::Vector2d{lens.center_u_px, lens.center_v_px};
+  const double scale = lens.radius(angle_rad) / aside;
+  return Eigen::Vector2d{lens.center_u_px + lens.focal_x_px * scale * p_C.x(),
+                         lens.center_v_px + lens.focal_y_px * scale * p_C.y()};
+}
+
+}  // namespace
+
 std::optional<Eigen::Vector2d> FisheyeLens::project(const Eigen::Vector3d& p_C) const {
   const double aside = p_C.head<2>().norm();
-  const double angle_rad = std::atan2(aside, p_C.z());
-  if (!(angle_rad < limit_rad) || !(p_C.squaredNorm() > 0.0)) return std::nullopt;
-  if (aside == 0.0) return Eigen::Vector2d{center_u_px, center_v_px};
-  const double scale = radius(angle_rad) / aside;
-  return Eigen::Vector2d{center_u_px + focal_x_px * scale * p_C.x(), center_v_px + focal_y_px * scale * p_C.y()};
+  return project_at(*this, p_C, aside, std::atan2(aside, p_C.z()));
+}
+
+void FisheyeLens::project_each(std::span<const Eigen::Vector3d> points_C, std::span<Eigen::Vector2d> pixels) const {
+  constexpr size_t kAtOnce = 64;
+  std::array<double, kAtOnce> asides, ahead, angles_rad;
+  for (size_t begin = 0; begin < points_C.size(); begin += kAtOnce) {
+    const auto points = points_C.subspan(begin, std::min(kAtOnce, points_C.size() - begin));
+    for (size_t i = 0; i < points.size(); ++i) {
+      asides[i] = points[i].head<2>().norm();
+      ahead[i] = points[i].z();
+    }
+    atan2_of_each({asides.data(), points.size()}, {ahead.data(), points.size()}, {angles_rad.data(), points.size()});
+    for (size_t i = 0; i < points.size(); ++i) {
+      pixels[begin + i] = project_at(*this, points[i], asides[i], angles_rad[i]).value_or(kNoPixel);
+    }
+  }
 }
 
 std::optional<Eigen::Vector3d> FisheyeLens::unit_ray(const Eigen::Vector2d& pixel) const {

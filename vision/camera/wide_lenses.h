@@ -2,12 +2,17 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace hedgehop::vision::camera {
+
+/// Pixel of a point that a lens does not image.
+inline const Eigen::Vector2d kNoPixel = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// A fisheye lens, whose field of view may exceed 180 degrees. A ray at angle theta to the axis is imaged at
 /// theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) focal lengths from the center. With coefficients of
@@ -29,6 +34,8 @@ struct FisheyeLens {
 
   /// As Camera::project().
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_C) const;
+  /// As Camera::project_each().
+  void project_each(std::span<const Eigen::Vector3d> points_C, std::span<Eigen::Vector2d> pixels) const;
   /// As Camera::unit_ray().
   std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 };

@@ -63,24 +63,30 @@ std::optional<ApproachMeter::Fit> ApproachMeter::fit(const cv::Mat& older, const
   const Eigen::Matrix3d R_C2C1 = motion.R_HC2.transpose() * motion.R_HC1;
   const Eigen::Vector2d corner_px(box_.x, box_.y);
   const cv::Rect2d inside(1.0, 1.0, box_.width - 3.0, box_.height - 3.0);
-  double jj = 0.0, jr = 0.0, rr = 0.0;
-  int count = 0;
+  // A point at depth Z along the travel keeps its lateral position and approaches by rate * dt * Z.
+  constexpr double kSmallPerS = 0.05;
+  std::vector<Eigen::Vector3d> points_C;  // of each sample at the rate and at a slightly larger one
+  std::vector<const Sample*> samples;
   for (const Sample& sample : samples_) {
-    // A point at depth Z along the travel keeps its lateral position and approaches by rate * dt * Z.
     const double along = sample.ray_C.dot(travel_C);
     if (along <= 0.1) continue;
-    const auto place = [&](double rate) {
-      return camera_.project(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * travel_C));
-    };
-    constexpr double kSmallPerS = 0.05;
-    const auto at = place(rate_per_s), on = place(rate_per_s + kSmallPerS);
-    if (!at || !on) continue;
-    const Eigen::Vector2d p = *at - corner_px, slide = (*on - *at) / kSmallPerS;
+    samples.push_back(&sample);
+    for (const double rate : {rate_per_s, rate_per_s + kSmallPerS}) {
+      points_C.emplace_back(R_C2C1 * (sample.ray_C / along - motion.dt_s * rate * travel_C));
+    }
+  }
+  const std::vector<Eigen::Vector2d> pixels = camera_.project_each(points_C);
+  double jj = 0.0, jr = 0.0, rr = 0.0;
+  int count = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Vector2d &at = pixels[2 * i], &on = pixels[2 * i + 1];
+    if (std::isnan(at.x()) || std::isnan(on.x())) continue;
+    const Eigen::Vector2d p = at - corner_px, slide = (on - at) / kSmallPerS;
     if (!inside.contains({p.x(), p.y()})) continue;
     const double right = 0.5 * (grey(newer, p + Eigen::Vector2d(1, 0)) - grey(newer, p - Eigen::Vector2d(1, 0)));
     const double below = 0.5 * (grey(newer, p + Eigen::Vector2d(0, 1)) - grey(newer, p - Eigen::Vector2d(0, 1)));
     const double j = right * slide.x() + below * slide.y();
-    const double r = grey(newer, p) - older.at<float>(sample.pixel - box_.tl());
+    const double r = grey(newer, p) - older.at<float>(samples[i]->pixel - box_.tl());
     jj += j * j, jr += j * r, rr += r * r, ++count;
   }
   if (count < 30 || jj == 0.0) return std::nullopt;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "vision/flow/corner_window.h"
+
 namespace hedgehop::vision::flow {
 
 /// Tracks corners from one image to another by pyramidal Lucas-Kanade, like OpenCV's calcOpticalFlowPyrLK with at most
@@ -35,11 +37,12 @@ class CornerTracker {
   };
   template <class Number>
   Rows<Number> rows_at(const cv::Mat& image, const cv::Point& at, std::vector<Number>& spare) const;
+  CornerRows window_rows(const Rows<uint8_t>& greys);
   cv::Point2f mismatch(const cv::Mat& image, const cv::Point& at, const cv::Point2f& part);
   bool search(const cv::Mat& image, const NormalMatrix& normal, cv::Point2f& place);
 
   int window_, levels_;
-  int stride_, rows_at_once_;  ///< of the buffers below: values per row, and rows whose sum fits 32 bits
+  int stride_;                                           ///< values per row of the buffers below
   std::vector<int16_t> grey_, gradient_x_, gradient_y_;  ///< of the window around the corner; grey x 32
   std::vector<uint8_t> pixels_;                          ///< copies near the right border of an image
   std::vector<int16_t> gradients_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/libm/many.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
@@ -149,6 +150,27 @@ uint64_t digest() {
 
 // Recorded, so that all machines must have the same bits. Another version of SLEEF may change them.
 TEST(Libm, ResultsHaveTheRecordedBits) { EXPECT_EQ(digest(), 9242769149961318195U); }
+
+TEST(Libm, ManyNumbersHaveTheBitsOfSingleCalls) {
+  constexpr double kInf = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::mt19937_64 random(3);
+  for (size_t count = 0; count < 40; ++count) {
+    std::vector<double> a(count), b(count), angles(count), lengths(count);
+    for (size_t i = 0; i < count; ++i) {
+      a[i] = uniform(random, -3.0, 3.0);
+      b[i] = uniform(random, -3.0, 3.0);
+      constexpr double kSpecial[] = {0.0, -0.0, kInf, -kInf, kNaN, 1e-310, 1e300};
+      if (chance(random, 0.2)) a[i] = kSpecial[random() % 7];
+      if (chance(random, 0.2)) b[i] = kSpecial[random() % 7];
+    }
+    atan2_of_each(a, b, angles);
+    hypot_of_each(a, b, lengths);
+    for (size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(std::bit_cast<uint64_t>(angles[i]), std::bit_cast<uint64_t>(std::atan2(a[i], b[i]))) << a[i] << b[i];
+      EXPECT_EQ(std::bit_cast<uint64_t>(lengths[i]), std::bit_cast<uint64_t>(std::hypot(a[i], b[i]))) << a[i] << b[i];
+    }
+  }
+}
 
 }  // namespace
 }  // namespace hedgehop::sim

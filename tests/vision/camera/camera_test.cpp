@@ -57,6 +57,25 @@ TEST(Camera, ProjectInvertsUnitRayOverTheImage) {
   EXPECT_LT(round_trips(Camera(parse_ocam_calibration(kSmallCalibration))).worst_px, kRoundTripPx);
 }
 
+TEST(Camera, ManyPointsHaveTheBitsOfSingleProjections) {
+  std::mt19937_64 random(107);
+  for (const Camera& camera :
+       {random_distorted_pinhole(random), random_fisheye(random), Camera(parse_ocam_calibration(kSmallCalibration))}) {
+    std::vector<Eigen::Vector3d> points_C = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), kNoPixel.homogeneous()};
+    while (points_C.size() < 150)
+      points_C.emplace_back(Eigen::Vector3d::NullaryExpr([&] { return uniform(random, -1.0, 1.0); }));
+    const std::vector<Eigen::Vector2d> pixels = camera.project_each(points_C);
+    ASSERT_EQ(pixels.size(), points_C.size());
+    for (size_t i = 0; i < points_C.size(); ++i) {
+      const std::optional<Eigen::Vector2d> pixel = camera.project(points_C[i]);
+      EXPECT_EQ(pixel.has_value(), !pixels[i].hasNaN()) << camera.lens_name() << ", point " << i;
+      if (pixel) {
+        EXPECT_EQ(*pixel, pixels[i]) << camera.lens_name() << ", point " << i;
+      }
+    }
+  }
+}
+
 TEST(Camera, RaysOfDifferentPixelsDiffer) {
   // A lens that folds back within the image has no rays there, because pixels would be ambiguous.
   PinholeLens folding{200, 200, 160, 120};

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <string>
 #include <vector>
+
+#include "vision/flow/corner_window.h"
 
 namespace hedgehop::vision::flow {
 namespace {
@@ -71,6 +74,60 @@ TEST(CornerTracker, TracksCornersLikeOpenCv) {
       EXPECT_GT(followed, images.corners.size() * 9 / 10);
       EXPECT_LE(far, images.corners.size() / 50);
       EXPECT_EQ(otherwise_seen, 0U);
+    }
+  }
+}
+
+/// Interpolates numbers at (x, y) with rounding to `bits` fewer bits.
+int interpolated(const cv::Mat& image, int channel, int x, int y, const CornerWeights& weights, int bits) {
+  const auto at = [&](int u, int v) {
+    return image.channels() == 1 ? int{image.at<uint8_t>(v, u)} : int{image.at<cv::Vec2s>(v, u)[channel]};
+  };
+  const int sum = at(x, y) * weights.top_left + at(x + 1, y) * weights.top_right + at(x, y + 1) * weights.bottom_left +
+                  at(x + 1, y + 1) * weights.bottom_right;
+  return (sum + (1 << (bits - 1))) >> bits;
+}
+
+// The oracle adds pixel by pixel.
+TEST(CornerWindow, RowsHaveTheSumsOfSinglePixels) {
+  cv::Mat older(80, 100, CV_8UC1), newer(80, 100, CV_8UC1), gradients(80, 100, CV_16SC2);
+  cv::RNG random(9);
+  for (cv::Mat* image : {&older, &newer}) random.fill(*image, cv::RNG::UNIFORM, 0, 256);
+  random.fill(gradients, cv::RNG::UNIFORM, -4080, 4081);
+  for (const int window : {3, 9, 11, 15, 17, 33}) {
+    const int stride = (window + 7) / 8 * 8;
+    std::vector<int16_t> grey(static_cast<size_t>(window * stride)), gradient_x(grey), gradient_y(grey);
+    for (const cv::Point2f part : {cv::Point2f(0.0F, 0.0F), {0.3F, 0.9F}, {0.999F, 0.5F}}) {
+      const CornerWeights weights(part);
+      CornerRows rows{older.ptr<uint8_t>(2) + 3,
+                      100,
+                      gradients.ptr<int16_t>(2) + 6,
+                      200,
+                      grey.data(),
+                      gradient_x.data(),
+                      gradient_y.data(),
+                      window,
+                      stride};
+      const auto products = load_rows(rows, weights);
+      rows.pixels = newer.ptr<uint8_t>(5) + 7;
+      const auto mismatch = mismatch_of_rows(rows, weights);
+      std::array<int64_t, 3> expected_products{};
+      std::array<int64_t, 2> expected_mismatch{};
+      for (int y = 0; y < window; ++y) {
+        for (int x = 0; x < window; ++x) {
+          const int64_t slope_x = interpolated(gradients, 0, x + 3, y + 2, weights, 14);
+          const int64_t slope_y = interpolated(gradients, 1, x + 3, y + 2, weights, 14);
+          const int difference =
+              interpolated(newer, 0, x + 7, y + 5, weights, 9) - interpolated(older, 0, x + 3, y + 2, weights, 9);
+          expected_products[0] += slope_x * slope_x;
+          expected_products[1] += slope_x * slope_y;
+          expected_products[2] += slope_y * slope_y;
+          expected_mismatch[0] += difference * slope_x;
+          expected_mismatch[1] += difference * slope_y;
+        }
+      }
+      EXPECT_EQ(products, expected_products) << window << " " << part;
+      EXPECT_EQ(mismatch, expected_mismatch) << window << " " << part;
     }
   }
 }
