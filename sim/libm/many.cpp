@@ -9,9 +9,7 @@
 // of the processor that the file is compiled for.
 extern "C" {
 __m256d Sleef_cinz_atan2d4_u10avx(__m256d, __m256d);
-__m256d Sleef_cinz_hypotd4_u05avx(__m256d, __m256d);
 __m512d Sleef_cinz_atan2d8_u10avx512fnofma(__m512d, __m512d);
-__m512d Sleef_cinz_hypotd8_u05avx512fnofma(__m512d, __m512d);
 }
 
 namespace hedgehop {
@@ -57,11 +55,6 @@ void compute_each(By8 by_8, By4 by_4, double (*one)(double, double), const Numbe
 void atan2_of_each(std::span<const double> y, std::span<const double> x, std::span<double> out) {
   compute_each(Sleef_cinz_atan2d8_u10avx512fnofma, Sleef_cinz_atan2d4_u10avx, std::atan2,
                {y.data(), x.data(), out.data(), out.size()});
-}
-
-void hypot_of_each(std::span<const double> x, std::span<const double> y, std::span<double> out) {
-  compute_each(Sleef_cinz_hypotd8_u05avx512fnofma, Sleef_cinz_hypotd4_u05avx, std::hypot,
-               {x.data(), y.data(), out.data(), out.size()});
 }
 
 }  // namespace hedgehop

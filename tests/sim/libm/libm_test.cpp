@@ -155,7 +155,7 @@ TEST(Libm, ManyNumbersHaveTheBitsOfSingleCalls) {
   constexpr double kInf = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
   std::mt19937_64 random(3);
   for (size_t count = 0; count < 40; ++count) {
-    std::vector<double> a(count), b(count), angles(count), lengths(count);
+    std::vector<double> a(count), b(count), angles(count);
     for (size_t i = 0; i < count; ++i) {
       a[i] = uniform(random, -3.0, 3.0);
       b[i] = uniform(random, -3.0, 3.0);
@@ -164,10 +164,8 @@ TEST(Libm, ManyNumbersHaveTheBitsOfSingleCalls) {
       if (chance(random, 0.2)) b[i] = kSpecial[random() % 7];
     }
     atan2_of_each(a, b, angles);
-    hypot_of_each(a, b, lengths);
     for (size_t i = 0; i < count; ++i) {
       EXPECT_EQ(std::bit_cast<uint64_t>(angles[i]), std::bit_cast<uint64_t>(std::atan2(a[i], b[i]))) << a[i] << b[i];
-      EXPECT_EQ(std::bit_cast<uint64_t>(lengths[i]), std::bit_cast<uint64_t>(std::hypot(a[i], b[i]))) << a[i] << b[i];
     }
   }
 }
