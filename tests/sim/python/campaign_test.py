@@ -35,7 +35,7 @@ class Campaigns(unittest.TestCase):
 
     def test_a_sweep_is_a_record_array_of_its_table(self):
         sweep = pathlib.Path(self.scratch.name) / "sweep.yaml"
-        sweep.write_text(f"description: short\nscenario: {CITY}\nset: [duration=0.4]\nseeds: 1:2\ntuned_on: 1:2000\n"
+        sweep.write_text(f"description: short\nscenario: {CITY}\nset: [duration=0.4, drawing.renderer=tiles]\nseeds: 1:2\ntuned_on: 1:2000\n"
                          "design: {type: grid}\nparameters: [{path: avoidance.speed, values: [1.0, 2.0]}]\n")
         table = hedgehop.sweep(sweep, self.out, jobs=2)
         self.assertEqual(len(table), 4)

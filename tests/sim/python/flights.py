@@ -9,8 +9,8 @@ SOURCE = pathlib.Path(os.environ["HEDGEHOP_SOURCE"])
 PROGRAM = os.environ["HEDGEHOP_PROGRAM"]
 CITY = SOURCE / "configs/garratt2009_city_0_light.yaml"
 TREE = SOURCE / "configs/andert2007_tree_160.yaml"
-SHORT = {"duration": 2, "film.enabled": False}
-STRAIGHT = {**SHORT, "duration": 4, "avoidance": {"module": "go_to_goal", "speed": 3.0}}
+SHORT = {"duration": 1, "film.enabled": False, "drawing.renderer": "tiles"}
+STRAIGHT = {**SHORT, "duration": 2, "avoidance": {"module": "go_to_goal", "speed": 3.0}}
 
 
 def set_options(values):

@@ -61,7 +61,7 @@ class WholeFlight(unittest.TestCase):
     def test_tables_contain_the_flight(self):
         sim = city()
         result = sim.run()
-        self.assertEqual(len(sim.trajectory), 201)
+        self.assertEqual(len(sim.trajectory), 101)
         self.assertEqual(len(sim.decisions), result["decisions"])
         moved = np.diff(np.stack([sim.trajectory[n] for n in ("north_m", "east_m", "down_m")]), axis=1)
         self.assertAlmostEqual(np.linalg.norm(moved, axis=0).sum(), result["path_length_m"], places=9)
