@@ -33,16 +33,33 @@ std::vector<std::string> complaints(const std::string& err) {
   return found;
 }
 
+/// A campaign without faults.
+struct Undisturbed {
+  std::map<std::string, std::string> files;
+  uint64_t calls = 0;
+};
+
 class Disk : public ::testing::TestWithParam<std::string_view> {
  protected:
+  void SetUp() override { std::filesystem::remove_all(folder.path() / "out"); }
   CommandEnd fly(std::string_view fault, uint64_t at, int workers = 1) const {
     return folder.shell(folder.on_failing_disk("out", fault, at) + HEDGEHOP_PROGRAM " " +
                         folder.arguments(GetParam(), "out", workers));
   }
+  /// Returns the command's campaign without faults, flown once for all tests.
+  const Undisturbed& undisturbed() const {
+    static std::map<std::string_view, Undisturbed> known;
+    Undisturbed& one = known[GetParam()];
+    if (one.files.empty()) {
+      one.files = folder.fly_undisturbed(GetParam());
+      one.calls = folder.calls();
+    }
+    return one;
+  }
   /// Returns the calls to test: all calls if requested (scripts/soak), otherwise a sample.
   std::vector<uint64_t> calls_to_try() const {
     const auto count = static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 1));
-    std::vector<uint64_t> all(folder.calls());
+    std::vector<uint64_t> all(undisturbed().calls);
     std::iota(all.begin(), all.end(), 1);
     std::vector<uint64_t> some;
     std::ranges::sample(all, std::back_inserter(some), static_cast<std::ptrdiff_t>(count), std::mt19937_64(1));
@@ -61,11 +78,15 @@ class Disk : public ::testing::TestWithParam<std::string_view> {
     std::filesystem::remove_all(folder.path() / "out");
   }
 
-  SmallCampaign folder;
+  static SmallCampaign& shared() {
+    static SmallCampaign one;
+    return one;
+  }
+  const SmallCampaign& folder = shared();
 };
 
 TEST_P(Disk, ThatFailsAtAnyCallIsReportedWithoutLossOfResults) {
-  const auto whole = folder.fly_undisturbed(GetParam());
+  const auto& whole = undisturbed().files;
   for (const std::string_view fault : {"full", "broken", "hiccup"}) {
     // Messages of the C library and of SQLite.
     const std::string words = fault == "full" ? "No space left on device|database or disk is full"
@@ -82,7 +103,7 @@ TEST_P(Disk, ThatFailsAtAnyCallIsReportedWithoutLossOfResults) {
 }
 
 TEST_P(Disk, ThatInterruptsCallsAndWritesInPartsIsNoError) {
-  const auto whole = folder.fly_undisturbed(GetParam());
+  const auto& whole = undisturbed().files;
   const CommandEnd end = fly("interrupted", 0, 2);
   EXPECT_EQ(end.status, 0) << end.out << end.err;
   EXPECT_THAT(complaints(end.err), IsEmpty());
@@ -91,7 +112,7 @@ TEST_P(Disk, ThatInterruptsCallsAndWritesInPartsIsNoError) {
 
 /// With a limit on file sizes, the user must get the write error, not the signal.
 TEST_P(Disk, ThatLimitsFileSizesEndsNoCampaignWithASignal) {
-  const auto whole = folder.fly_undisturbed(GetParam());
+  const auto& whole = undisturbed().files;
   const CommandEnd end = folder.shell("ulimit -f 4; " HEDGEHOP_PROGRAM " " + folder.arguments(GetParam(), "out", 1));
   EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << end.out << end.err;
   EXPECT_THAT(end.out + end.err, HasSubstr("File too large"));
@@ -115,7 +136,7 @@ TEST_P(Disk, ThatIsFullIsReportedWithoutLossOfResults) {
   if (folder.shell("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o size=64k none out'").status != 0) {
     GTEST_SKIP() << "no mounts here";
   }
-  const auto whole = folder.fly_undisturbed(GetParam());
+  const auto& whole = undisturbed().files;
   for (const int kilobytes : {4, 80}) {
     const CommandEnd end = folder.shell(
         fmt::format("unshare -rm sh -c 'mkdir -p out && mount -t tmpfs -o size={}k none out && {{ {} {}; status=$?; cp "
