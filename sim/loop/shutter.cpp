@@ -69,6 +69,8 @@ vision::camera::Camera cut(const vision::camera::Camera& camera, const cv::Range
       [&](auto& lens) {
         if constexpr (requires { lens.center_v_px; }) {
           lens.center_v_px -= rows.start;
+        } else if constexpr (requires { lens.plane; }) {
+          lens.plane.center_v_px -= rows.start;
         } else {
           lens.center_row_px -= rows.start;
         }

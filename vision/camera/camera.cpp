@@ -1,5 +1,6 @@
 #include "vision/camera/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <stdexcept>
@@ -22,7 +23,7 @@ bool finite(std::initializer_list<double> numbers) {
 // Takes `const char*`, because this check runs for every image and must not allocate.
 void check_lens(const PinholeLens& lens) {
   require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.k1, lens.k2, lens.p1,
-                  lens.p2, lens.k3}),
+                  lens.p2, lens.k3, lens.k4, lens.k5, lens.k6}),
           "a number of the lens is not finite");
   require(lens.focal_x_px > 0.0 && lens.focal_y_px > 0.0, "a camera's focal lengths must be positive");
 }
@@ -47,7 +48,43 @@ void check_lens(const OcamLens& lens) {
   require(lens.limit_px > 0.0, "an omnidirectional lens needs a limit above 0 px");
 }
 
+void check_lens(const UnifiedLens& lens) {
+  check_lens(lens.plane);
+  require(std::isfinite(lens.xi) && lens.xi >= 0.0, "xi of a unified lens must be at least 0");
+}
+
+void check_lens(const DoubleSphereLens& lens) {
+  require(finite({lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.xi, lens.alpha}),
+          "a number of the lens is not finite");
+  require(lens.focal_x_px > 0.0 && lens.focal_y_px > 0.0, "a camera's focal lengths must be positive");
+  require(lens.xi > -1.0, "xi of a double-sphere lens must be above -1");
+  require(lens.alpha >= 0.0 && lens.alpha < 1.0, "alpha of a double-sphere lens must be in [0, 1)");
+}
+
+/// Whether pixels without a ray are past the turn of the lens's polynomial, not past a limit of its geometry.
+bool can_turn(const Camera::Lens& lens) {
+  if (const auto* pinhole = std::get_if<PinholeLens>(&lens)) return !pinhole->is_undistorted();
+  if (const auto* unified = std::get_if<UnifiedLens>(&lens)) return !unified->plane.is_undistorted();
+  const auto* const fisheye = std::get_if<FisheyeLens>(&lens);
+  return fisheye && fisheye->limit_rad < std::numbers::pi && fisheye->limit_rad == fisheye->growth_limit_rad();
+}
+
 }  // namespace
+
+double share_past_turn(const Camera& camera) {
+  if (!can_turn(camera.lens)) return 0.0;
+  constexpr int kNodes = 64;
+  const int columns = std::min(kNodes, camera.width_px), rows = std::min(kNodes, camera.height_px);
+  int past = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < columns; ++col) {
+      const Eigen::Vector2d pixel((col + 0.5) / columns * camera.width_px - 0.5,
+                                  (row + 0.5) / rows * camera.height_px - 0.5);
+      if (!camera.unit_ray(pixel)) ++past;
+    }
+  }
+  return static_cast<double>(past) / (rows * columns);
+}
 
 Camera::Camera(const PinholeCamera& pinhole)
     : width_px(pinhole.width_px),
@@ -99,6 +136,8 @@ PinholeCamera Camera::pinhole() const {
 std::string Camera::lens_name() const {
   if (std::holds_alternative<FisheyeLens>(lens)) return "fisheye";
   if (std::holds_alternative<OcamLens>(lens)) return "omnidirectional (OCamCalib)";
+  if (std::holds_alternative<UnifiedLens>(lens)) return "unified";
+  if (std::holds_alternative<DoubleSphereLens>(lens)) return "double sphere";
   return is_undistorted_pinhole() ? "pinhole" : "distorted pinhole";
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vision/camera/pinhole_camera.h"
+#include "vision/camera/sphere_lenses.h"
 #include "vision/camera/wide_lenses.h"
 
 namespace hedgehop::vision::camera {
@@ -16,7 +17,7 @@ namespace hedgehop::vision::camera {
 /// the center of the top-left pixel, u right, v down, so an image covers u in [-0.5, width - 0.5]. The simulator
 /// renders images with this projection. Copying a camera does not allocate memory.
 struct Camera {
-  using Lens = std::variant<PinholeLens, FisheyeLens, OcamLens>;
+  using Lens = std::variant<PinholeLens, FisheyeLens, OcamLens, UnifiedLens, DoubleSphereLens>;
 
   int width_px = 0, height_px = 0;
   Lens lens;
@@ -43,7 +44,7 @@ struct Camera {
   /// Returns this camera as an undistorted pinhole, for algorithms that require one.
   /// Throws std::invalid_argument with the name of the lens if it is a different one.
   PinholeCamera pinhole() const;
-  /// Returns "pinhole", "distorted pinhole", "fisheye" or "omnidirectional (OCamCalib)".
+  /// Returns "pinhole", "distorted pinhole", "fisheye", "omnidirectional (OCamCalib)", "unified" or "double sphere".
   std::string lens_name() const;
 };
 
@@ -51,6 +52,10 @@ struct Camera {
 /// width.
 /// @param horizontal_fov_rad  in (0, 2 pi). Throws std::invalid_argument if it exceeds the lens's limit.
 double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double horizontal_fov_rad);
+
+/// Returns the share of an image's pixels that show no ray because the distortion polynomial of a pinhole, unified or
+/// fisheye lens turns over before them; estimated on a grid of at most 64 x 64 pixels. They stay black.
+double share_past_turn(const Camera& camera);
 
 /// Throws std::invalid_argument with the reason if the camera is invalid: an empty image, a focal length that is not
 /// positive, a number that is not finite, or a limit in the range in which the image radius decreases.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace hedgehop::vision::camera {
 
@@ -40,10 +41,31 @@ struct Distorted {
   Eigen::Matrix2d slope;
 };
 
+/// Returns the radial factor at r^2 = s, and its derivative with s.
+std::pair<double, double> stretch_of(const PinholeLens& lens, double s) {
+  const double above = 1.0 + s * (lens.k1 + s * (lens.k2 + s * lens.k3));
+  const double d_above = lens.k1 + s * (2.0 * lens.k2 + s * 3.0 * lens.k3);
+  if (!lens.is_rational()) return {above, d_above};
+  const double below = 1.0 + s * (lens.k4 + s * (lens.k5 + s * lens.k6));
+  const double d_below = lens.k4 + s * (2.0 * lens.k5 + s * 3.0 * lens.k6);
+  return {above / below, (d_above * below - above * d_below) / (below * below)};
+}
+
+/// Returns whether the radial part of a rational lens increases up to r^2 = `end`.
+bool grows_to(const PinholeLens& lens, double end) {
+  constexpr int kSamples = 64;
+  for (int sample = 1; sample <= kSamples; ++sample) {
+    const double s = end * sample / kSamples;
+    const auto [stretch, d_stretch] = stretch_of(lens, s);
+    const double below = 1.0 + s * (lens.k4 + s * (lens.k5 + s * lens.k6));
+    if (!(below > 0.0 && stretch + 2.0 * s * d_stretch > 0.0)) return false;
+  }
+  return true;
+}
+
 Distorted distort(const PinholeLens& lens, const Eigen::Vector2d& p) {
   const double x = p.x(), y = p.y(), s = p.squaredNorm();
-  const double stretch = 1.0 + s * (lens.k1 + s * (lens.k2 + s * lens.k3));
-  const double d_stretch = lens.k1 + s * (2.0 * lens.k2 + s * 3.0 * lens.k3);  // with s
+  const auto [stretch, d_stretch] = stretch_of(lens, s);
   const Eigen::Vector2d tangential(2.0 * lens.p1 * x * y + lens.p2 * (s + 2.0 * x * x),
                                    lens.p1 * (s + 2.0 * y * y) + 2.0 * lens.p2 * x * y);
   Eigen::Matrix2d slope = stretch * Eigen::Matrix2d::Identity() + 2.0 * d_stretch * p * p.transpose();
@@ -59,6 +81,7 @@ Distorted distort(const PinholeLens& lens, const Eigen::Vector2d& p) {
 /// unique ray.
 bool is_in_view(const PinholeLens& lens, const Eigen::Vector2d& p, const Eigen::Matrix2d& slope) {
   const double end = p.squaredNorm();
+  if (lens.is_rational()) return grows_to(lens, end) && slope.determinant() > 0.0;
   // The growth d(r (1 + ...)) / dr is a cubic in s = r^2. Its minimum is at an end of [0, end] or a root of its slope.
   const auto growth = [&](double s) { return 1.0 + s * (3.0 * lens.k1 + s * (5.0 * lens.k2 + s * 7.0 * lens.k3)); };
   const double a = 21.0 * lens.k3, b = 10.0 * lens.k2, c = 3.0 * lens.k1, root = std::sqrt(b * b - 4.0 * a * c);

@@ -32,6 +32,32 @@ inline camera::Camera random_fisheye(std::mt19937_64& random) {
   return {320, 240, lens};
 }
 
+inline camera::Camera random_rational_pinhole(std::mt19937_64& random) {
+  camera::Camera camera = random_distorted_pinhole(random);
+  auto& lens = std::get<camera::PinholeLens>(camera.lens);
+  lens.k4 = uniform(random, -0.1, 0.3);
+  lens.k5 = uniform(random, -0.05, 0.1);
+  lens.k6 = uniform(random, -0.01, 0.02);
+  return camera;
+}
+
+/// As random_distorted_pinhole(), behind a sphere moved by 0 to 2: up to beyond 180 degrees.
+inline camera::Camera random_unified(std::mt19937_64& random) {
+  camera::Camera camera = random_distorted_pinhole(random);
+  auto plane = std::get<camera::PinholeLens>(camera.lens);
+  plane.k3 = 0.0;
+  camera.lens = camera::UnifiedLens{plane, uniform(random, 0.0, 2.0)};
+  return camera;
+}
+
+inline camera::Camera random_double_sphere(std::mt19937_64& random) {
+  camera::DoubleSphereLens lens{uniform(random, 70, 130), uniform(random, 70, 130), uniform(random, 150, 170),
+                                uniform(random, 110, 130)};
+  lens.xi = uniform(random, -0.3, 0.4);
+  lens.alpha = uniform(random, 0.3, 0.7);
+  return {320, 240, lens};
+}
+
 /// A synthetic calibration in OCamCalib's format: 752 x 480 px, about 200 degrees across.
 inline constexpr const char* kSmallCalibration = R"(#polynomial coefficients for the direct mapping function
 
