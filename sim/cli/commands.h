@@ -223,6 +223,9 @@ inline LoadedScenario load(const ScenarioOptions& options) {
   return load_flight(options.file, overrides, options.seed);
 }
 
+/// Prints one line for each camera whose image has black pixels because the polynomial of its lens turns over.
+void print_black_pixels(const RigConfig& rig);
+
 /// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the
 /// working folder, otherwise from those of the installed program. Throws InputError that names the folder if there are
 /// no such files.

@@ -57,6 +57,7 @@ int render(const RenderOptions& options) {
   require_writable_file(options.out);
   const ImageChannel channel = channel_of(options.what);
   Simulation simulation(load(options.scenario));
+  print_black_pixels(simulation.scenario().rig);
   cv::Mat image = image_at(simulation, options, channel);
   if (options.what == "depth_mm") {
     image = depth_mm(image);

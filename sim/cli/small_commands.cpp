@@ -31,6 +31,17 @@ void film_worst(const std::filesystem::path& folder, size_t count) {
 
 }  // namespace
 
+void print_black_pixels(const RigConfig& rig) {
+  for (const CameraConfig& camera : rig.cameras) {
+    const double share = vision::camera::share_past_turn(camera.model());
+    if (share == 0.0) continue;
+    notice(fmt::format(
+        "camera '{}': the polynomial of its lens turns over inside the image, so {:.1f} % of the pixels are "
+        "black\n",
+        camera.role, 100.0 * share));
+  }
+}
+
 int list(const std::string& topic) {
   fmt::print("{}{}", document(topic), topic == "vehicles" ? vehicle_files_text() : "");
   return 0;
@@ -46,6 +57,7 @@ int calibration(const CalibrationOptions& options) {
   if (options.opencv_header && !kalibr) throw InputError("--opencv-header is for --format kalibr");
   const Scenario scenario = load(options.scenario).scenario;
   const RigConfig& rig = scenario.rig;
+  print_black_pixels(rig);
   const std::vector<CameraConfig> cameras = options.cameras.empty() ? rig.cameras : rig.select(options.cameras);
   const std::string text = build_part("rig", [&] {
     return kalibr ? kalibr_calibration(cameras, scenario.avionics.imu, options.opencv_header)

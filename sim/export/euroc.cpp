@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/config/input_error.h"
 #include "sim/record/table.h"
 
@@ -23,14 +25,19 @@ std::string pose(const Eigen::Isometry3d& X) {
 
 std::string camera_sensor(const RecordedCamera& camera) {
   const Intrinsics& lens = camera.lens;
-  if (!lens.fisheye && lens.distortion[4] != 0.0) {
-    throw InputError(fmt::format("camera '{}': the EuRoC format does not support k3", camera.role));
+  using Model = Intrinsics::Model;
+  const bool fisheye = lens.model == Model::fisheye;
+  if (!fisheye && lens.model != Model::pinhole) {
+    throw InputError(fmt::format("camera '{}': the EuRoC format supports pinholes and fisheyes only", camera.role));
+  }
+  if (!fisheye && std::any_of(lens.distortion.begin() + 4, lens.distortion.end(), [](double k) { return k != 0.0; })) {
+    throw InputError(fmt::format("camera '{}': the EuRoC format does not support k3 to k6", camera.role));
   }
   return fmt::format(
       "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
       "intrinsics: [{}, {}, {}, {}]\ndistortion_model: {}\ndistortion_coefficients: [{}, {}, {}, {}]\n",
       camera.role, pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.focal_x_px,
-      lens.focal_y_px, lens.center_u_px, lens.center_v_px, lens.fisheye ? "equidistant" : "radial-tangential",
+      lens.focal_y_px, lens.center_u_px, lens.center_v_px, fisheye ? "equidistant" : "radial-tangential",
       lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]);
 }
 

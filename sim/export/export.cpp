@@ -27,7 +27,7 @@ RecordedCamera recorded(const CameraConfig& config, const dynamics::sensors::Imu
           .height_px = model.height_px,
           .rate_hz = config.rate_hz,
           .lens = intrinsics(config, model),
-          .X_FC = X_FC(imu, config.X_BC()),
+          .X_FC = X_FC(imu, config),
           .X_FC_true = X_FC(imu, true_X_BC(config, model, seed)),
           .t_ns = {}};
 }
@@ -66,7 +66,7 @@ void check(const ExportRequest& request, SensorRecord record) {
       for (const RecordedCamera& camera : record.cameras) names += (names.empty() ? "" : ", ") + camera.role;
       throw InputError("the TUM format supports one camera; select it with --camera: " + names);
     }
-    if (record.cameras[0].lens.fisheye) {
+    if (record.cameras[0].lens.model != Intrinsics::Model::pinhole) {
       throw InputError(fmt::format("camera '{}': the TUM format supports pinholes only", record.cameras[0].role));
     }
   }

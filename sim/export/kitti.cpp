@@ -33,7 +33,7 @@ Eigen::Matrix<double, 3, 4> projection(const RecordedCamera& camera, const Recor
 void check(const SensorRecord& record) {
   for (const RecordedCamera& camera : record.cameras) {
     const bool distorted = std::ranges::any_of(camera.lens.distortion, [](double k) { return k != 0.0; });
-    if (camera.lens.fisheye || distorted) {
+    if (camera.lens.model != Intrinsics::Model::pinhole || distorted) {
       throw InputError(fmt::format("camera '{}': the KITTI format supports undistorted pinholes only", camera.role));
     }
     if (camera.rate_hz != record.cameras.front().rate_hz) {

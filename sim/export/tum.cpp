@@ -50,10 +50,10 @@ std::string calibration(const RecordedCamera& camera) {
       "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ndepth_per_meter: {:.1f}\n"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [{}, 0., {}, 0., {}, {}, 0., 0., "
       "1.]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [{}]\n"
+      "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: {}\n   dt: d\n   data: [{}]\n"
       "imu_from_camera: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [{}]\n",
       camera.width_px, camera.height_px, kTumDepthPerMeter, lens.focal_x_px, lens.center_u_px, lens.focal_y_px,
-      lens.center_v_px, fmt::join(lens.distortion, ", "), pose);
+      lens.center_v_px, lens.distortion.size(), fmt::join(lens.distortion, ", "), pose);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace hedgehop::fields {
@@ -19,5 +20,10 @@ class InvalidField : public std::invalid_argument {
  private:
   std::string key_, message_;
 };
+
+/// Throws InvalidField unless a condition on the field holds.
+inline void require(bool holds, std::string_view key, const std::string& message) {
+  if (!holds) throw InvalidField(std::string(key), message);
+}
 
 }  // namespace hedgehop::fields

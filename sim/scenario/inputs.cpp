@@ -32,6 +32,7 @@ std::set<fs::path> named_files(const Scenario& scenario) {
       [](const auto& chosen) -> const auto& { return chosen.added.imports; }, scenario.scene);
   for (const scenes::mesh::ImportConfig& import : imports) files.merge(scenes::mesh::mesh_files(import.file));
   for (const CameraConfig& camera : scenario.rig.cameras) files.insert(camera.calibration);
+  files.insert(scenario.rig.read_calibrations.begin(), scenario.rig.read_calibrations.end());
   for (const CheckConfig& check : scenario.checks) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }

@@ -12,6 +12,7 @@
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
@@ -31,9 +32,7 @@ std::string_view words(CameraConfig::Channel channel) {
   return "?";
 }
 
-void require(bool holds, std::string_view key, const std::string& message) {
-  if (!holds) throw fields::InvalidField(std::string(key), message);
-}
+using fields::require;
 
 /// Sets principal point and focal lengths. @param fov_focal_px  focal length for the field of view.
 template <class Lens>
@@ -45,27 +44,41 @@ void place(const CameraConfig& c, double fov_focal_px, Lens& lens) {
   lens.center_v_px = c.center_v_px.value_or(0.5 * (c.height_px - 1));
 }
 
+/// Returns the focal length, px, at which the field of view covers the width. @param lens  with focal length 1 px.
+template <class Lens>
+double fov_focal_px(const CameraConfig& c, const Lens& lens) {
+  const double half_rad = 0.5 * c.fov_rad;
+  const auto edge = lens.project({std::sin(half_rad), 0.0, std::cos(half_rad)});
+  require(edge && edge->x() > 0.0, "fov", "the distortion folds the image back before its edge");
+  return 0.5 * c.width_px / edge->x();
+}
+
+/// Sets the coefficients in OpenCV's order.
+void distort(const std::vector<double>& k, vision::camera::PinholeLens& lens) {
+  using Lens = vision::camera::PinholeLens;
+  constexpr double Lens::*kMembers[] = {&Lens::k1, &Lens::k2, &Lens::p1, &Lens::p2,
+                                        &Lens::k3, &Lens::k4, &Lens::k5, &Lens::k6};
+  for (size_t i = 0; i < std::min(k.size(), std::size(kMembers)); ++i) lens.*kMembers[i] = k[i];
+}
+
 vision::camera::Camera pinhole(const CameraConfig& c) {
   const size_t count = c.distortion.size();
-  require(count == 0 || count == 4 || count == 5, "distortion",
-          fmt::format("a pinhole takes k1 k2 p1 p2 or k1 k2 p1 p2 k3, got {} numbers", count));
+  require(
+      count == 0 || count == 4 || count == 5 || count == 8, "distortion",
+      fmt::format("a pinhole takes k1 k2 p1 p2, with k3, or with k3 k4 k5 k6, got {} numbers; thin prism and tilted "
+                  "lenses are not implemented",
+                  count));
   require(!c.view_limit_rad, "view_limit", "is for a fisheye");
   require(c.focal_x_px || c.fov_rad < std::numbers::pi, "fov", "a pinhole shows less than 180 deg");
   vision::camera::PinholeLens lens{1.0, 1.0};
-  if (count > 0) {
-    lens.k1 = c.distortion[0];
-    lens.k2 = c.distortion[1];
-    lens.p1 = c.distortion[2];
-    lens.p2 = c.distortion[3];
-    if (count == 5) lens.k3 = c.distortion[4];
-  }
-  double fov_focal_px = 0.0;
+  distort(c.distortion, lens);
+  double focal_px = 0.0;
   if (!c.focal_x_px) {
     const auto edge = lens.project({std::tan(0.5 * c.fov_rad), 0.0, 1.0});
     require(edge && edge->x() > 0.0, "fov", "the distortion folds the image back before its edge");
-    fov_focal_px = 0.5 * c.width_px / edge->x();
+    focal_px = 0.5 * c.width_px / edge->x();
   }
-  place(c, fov_focal_px, lens);
+  place(c, focal_px, lens);
   return {c.width_px, c.height_px, lens};
 }
 
@@ -81,6 +94,28 @@ vision::camera::Camera fisheye(const CameraConfig& c) {
   }
   lens.limit_rad = c.view_limit_rad.value_or(lens.growth_limit_rad());
   place(c, c.focal_x_px ? 0.0 : vision::camera::fisheye_focal_px(lens, c.width_px, c.fov_rad), lens);
+  return {c.width_px, c.height_px, lens};
+}
+
+vision::camera::Camera unified(const CameraConfig& c) {
+  const size_t count = c.distortion.size();
+  require(count == 0 || count == 4, "distortion",
+          fmt::format("a unified lens takes k1 k2 p1 p2, got {} numbers", count));
+  require(!c.view_limit_rad, "view_limit", "is for a fisheye");
+  require(c.xi && *c.xi >= 0.0, "xi", "model: unified needs it, at least 0");
+  vision::camera::UnifiedLens lens{.plane = {1.0, 1.0}, .xi = *c.xi};
+  distort(c.distortion, lens.plane);
+  place(c, c.focal_x_px ? 0.0 : fov_focal_px(c, lens), lens.plane);
+  return {c.width_px, c.height_px, lens};
+}
+
+vision::camera::Camera double_sphere(const CameraConfig& c) {
+  require(c.distortion.empty(), "distortion", "a double-sphere lens has none");
+  require(!c.view_limit_rad, "view_limit", "is for a fisheye");
+  require(c.xi.has_value(), "xi", "model: double_sphere needs it");
+  require(c.alpha.has_value(), "alpha", "model: double_sphere needs it");
+  vision::camera::DoubleSphereLens lens{.focal_x_px = 1.0, .focal_y_px = 1.0, .xi = *c.xi, .alpha = *c.alpha};
+  place(c, c.focal_x_px ? 0.0 : fov_focal_px(c, lens), lens);
   return {c.width_px, c.height_px, lens};
 }
 
@@ -102,29 +137,29 @@ vision::camera::Camera ocam(const CameraConfig& c) {
 
 }  // namespace
 
-Eigen::Isometry3d CameraConfig::X_BC() const {
-  // Columns are C's axes (right, down, forward) of a forward camera, expressed in B: a cyclic permutation.
-  Eigen::Matrix3d R_forward;
-  R_forward.col(0) = Eigen::Vector3d::UnitY();
-  R_forward.col(1) = Eigen::Vector3d::UnitZ();
-  R_forward.col(2) = Eigen::Vector3d::UnitX();
-
-  const Eigen::Quaterniond q_mount = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-                                     Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                                     Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
-  Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
-  X_BC.linear() = q_mount.toRotationMatrix() * R_forward;
-  X_BC.translation() = Eigen::Vector3d(forward_m, right_m, down_m);
-  return X_BC;
-}
-
 vision::camera::Camera CameraConfig::model() const {
   fields::require_bounds(*this);
   require(std::has_single_bit(static_cast<unsigned>(samples)), "samples", "valid: 1, 2, 4, 8");
-  require(model_kind == Model::ocam || calibration.empty(), "calibration", "is for model: ocam");
-  const vision::camera::Camera camera = model_kind == Model::ocam      ? ocam(*this)
-                                        : model_kind == Model::fisheye ? fisheye(*this)
-                                                                       : pinhole(*this);
+  require(model_kind == Model::ocam || calibration.empty(), "calibration", "has not been applied by mount_rig()");
+  require(!xi || model_kind == Model::unified || model_kind == Model::double_sphere, "xi",
+          "is for model: unified or double_sphere");
+  require(!alpha || model_kind == Model::double_sphere, "alpha", "is for model: double_sphere");
+  const auto build = [this] {
+    switch (model_kind) {
+      case Model::pinhole:
+        return pinhole(*this);
+      case Model::fisheye:
+        return fisheye(*this);
+      case Model::ocam:
+        return ocam(*this);
+      case Model::unified:
+        return unified(*this);
+      case Model::double_sphere:
+        return double_sphere(*this);
+    }
+    throw std::logic_error("a lens without a model");
+  };
+  const vision::camera::Camera camera = build();
   vision::camera::check(camera);
   return camera;
 }
@@ -175,43 +210,6 @@ std::vector<std::string> RigConfig::lacks(std::string_view role, CameraConfig::C
         fmt::format("needs camera '{}' to deliver {}; it delivers {}", role, words(channel), words(camera->channel)));
   }
   return faults;
-}
-
-void mount_rig(RigConfig& rig) {
-  for (const StereoConfig& pair : rig.stereo) {
-    const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * pair.camera.X_BC().linear().col(0);
-    for (const double side : {-1.0, 1.0}) {
-      CameraConfig& camera = rig.cameras.emplace_back(pair.camera);
-      camera.role = (pair.role.empty() ? "" : pair.role + "_") + (side < 0.0 ? "left" : "right");
-      camera.forward_m += side * half_B.x();
-      camera.right_m += side * half_B.y();
-      camera.down_m += side * half_B.z();
-    }
-    rig.cameras.back().row_error_px = pair.row_error_px;
-    rig.cameras.back().side_error_m = pair.baseline_error * pair.baseline_m;
-  }
-  rig.stereo.clear();
-  for (CameraConfig& camera : rig.cameras) {
-    const bool has_images =
-        camera.channel == CameraConfig::Channel::grey || camera.channel == CameraConfig::Channel::color;
-    if (has_images && !camera.imperfections) camera.imperfections = rig.sensor;
-  }
-  rig.sensor.reset();
-}
-
-double pixel_angle_rad(const vision::camera::Camera& camera) {
-  const Eigen::Vector3d axis_C = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d below_C = *camera.unit_ray(*camera.project(axis_C) + Eigen::Vector2d(0.0, 1.0));
-  return std::atan2(axis_C.cross(below_C).norm(), axis_C.dot(below_C));
-}
-
-Eigen::Isometry3d true_X_BC(const CameraConfig& camera, const vision::camera::Camera& model, uint64_t seed) {
-  if (camera.row_error_px == 0.0 && camera.side_error_m == 0.0) return camera.X_BC();
-  const uint64_t bits = stream_seed(seed, "calibration." + camera.role);
-  const double row_sign = (bits & 1U) != 0 ? 1.0 : -1.0, side_sign = (bits & 2U) != 0 ? 1.0 : -1.0;
-  const double turn_rad = row_sign * camera.row_error_px * pixel_angle_rad(model);
-  return camera.X_BC() * Eigen::Translation3d(side_sign * camera.side_error_m, 0.0, 0.0) *
-         Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitX());
 }
 
 }  // namespace hedgehop::sim

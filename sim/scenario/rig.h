@@ -85,7 +85,7 @@ void describe(Visitor& v, fields::ConfigOf<ImperfectionsConfig> auto& c) {
 /// One camera as mounted on the vehicle. All angles zero: looks along B's x, its u axis along B's y.
 struct CameraConfig {
   using Channel = avoidance::CameraChannel;
-  enum class Model { pinhole, fisheye, ocam };
+  enum class Model { pinhole, fisheye, ocam, unified, double_sphere };
 
   std::string role;
   Model model_kind = Model::pinhole;
@@ -94,18 +94,27 @@ struct CameraConfig {
   std::optional<double> focal_x_px, focal_y_px, center_u_px, center_v_px;
   std::vector<double> distortion;
   std::optional<double> view_limit_rad;
+  std::optional<double> xi, alpha;  ///< of a unified and a double-sphere lens
   std::filesystem::path calibration;
+  std::string calibration_camera;
   double rate_hz = 50.0;
   Channel channel = Channel::grey;
   double corner_noise_px = 0.5;  ///< typical of a good corner detector
   int samples = 1;               ///< samples per pixel, averaged for grey and color: 1, 2, 4 or 8
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+  std::vector<double> quaternion;  ///< of R_BC: w, x, y, z; instead of the angles
+  /// The pose as 16 numbers of a 4 x 4 matrix, row by row, as a calibration states it: X_BC, X_FC or X_CF (F is the
+  /// IMU's frame, sim/scenario/calibration.h). At most one is not empty, and it replaces position and angles.
+  std::vector<double> body_from_camera, imu_from_camera, camera_from_imu;
+  std::vector<double> camera_from_previous;          ///< X_CCp of a chain; mount_rig() replaces it by body_from_camera
+  Eigen::Vector3d p_BI_m = Eigen::Vector3d::Zero();  ///< position of the IMU, set by mount_rig()
   double row_error_px = 0.0, side_error_m = 0.0;     ///< of the calibration; the signs are drawn by the seed
   std::optional<ImperfectionsConfig> imperfections;  ///< none: the rig's sensor, for grey and color
 
-  /// Returns the calibrated pose of the camera in B: the mounting position, and yaw about down, pitch about right, roll
-  /// about forward, in this order, from a camera that looks forward. Yaw 90 deg looks right, pitch -90 deg looks down.
+  /// Returns the calibrated pose of the camera in B: that of its matrix, or the mounting position, and the quaternion,
+  /// or yaw about down, pitch about right, roll about forward, in this order, from a camera that looks forward. Yaw 90
+  /// deg looks right, pitch -90 deg looks down. Throws fields::InvalidField for a matrix or quaternion that is no pose.
   Eigen::Isometry3d X_BC() const;
   /// Throws fields::InvalidField for values out of bounds, keys that contradict each other, or an invalid calibration
   /// file.
@@ -118,8 +127,9 @@ struct CameraConfig {
 template <class Visitor>
 void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("model", c.model_kind,
-    {.choices = {"pinhole", "fisheye", "ocam"},
-     .meaning = "perspective; equidistant fisheye; omnidirectional, from a file of OCamCalib"});
+    {.choices = {"pinhole", "fisheye", "ocam", "unified", "double_sphere"},
+     .meaning = "perspective; equidistant fisheye; omnidirectional, from a file of OCamCalib; unified (Mei); double "
+                "sphere"});
   v("width", c.width_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "columns of the image"});
   v("height", c.height_px, {.unit = "px", .at_least = 8, .at_most = 8192, .meaning = "rows of the image"});
   v("fov", c.fov_rad,
@@ -132,13 +142,21 @@ void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("center_u", c.center_u_px, {.unit = "px", .meaning = "column of the optical axis; default: the center"});
   v("center_v", c.center_v_px, {.unit = "px", .meaning = "row of the optical axis; default: the center"});
   v("distortion", c.distortion,
-    {.meaning = "coefficients of OpenCV: k1 k2 p1 p2 k3 of a pinhole, k1 k2 k3 k4 of a fisheye"});
+    {.meaning = "coefficients of OpenCV: k1 k2 p1 p2 k3 of a pinhole, or with k4 k5 k6 (rational); k1 k2 k3 k4 of a "
+                "fisheye; k1 k2 p1 p2 of a unified lens"});
+  v("xi", c.xi, {.above = -1.0, .meaning = "parameter of a unified (>= 0) or double-sphere lens"});
+  v("alpha", c.alpha, {.at_least = 0.0, .below = 1.0, .meaning = "parameter of a double-sphere lens"});
   v("view_limit", c.view_limit_rad,
     {.unit = "deg",
      .above = 0.0,
      .at_most = 180.0,
      .meaning = "angle from the axis at which a fisheye's image ends; default: the limit of its lens"});
-  v("calibration", c.calibration, {.meaning = "file calib_results.txt of OCamCalib, for model: ocam"});
+  v("calibration", c.calibration,
+    {.meaning =
+         "calibration file, instead of the keys of lens, size and pose: Kalibr, sensor.yaml of EuRoC, camera_info "
+         "of ROS, OpenCV (YAML or XML), OCamCalib"});
+  v("calibration_camera", c.calibration_camera,
+    {.meaning = "camera in a file with several, such as cam1; default: the one with the camera's role"});
   v("rate", c.rate_hz,
     {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "image rate; must divide the physics rate"});
   v("channel", c.channel,
@@ -161,6 +179,14 @@ void describe_without_role(Visitor& v, fields::ConfigOf<CameraConfig> auto& c) {
   v("yaw", c.yaw_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation to the right, first"});
   v("pitch", c.pitch_rad, {.unit = "deg", .at_least = -90.0, .at_most = 90.0, .meaning = "rotation upwards, second"});
   v("roll", c.roll_rad, {.unit = "deg", .at_least = -180.0, .at_most = 180.0, .meaning = "rotation clockwise, last"});
+  v("quaternion", c.quaternion,
+    {.meaning = "w x y z of the rotation from the camera's axes (right, down, forward) to the body's (forward, right, "
+                "down), instead of yaw, pitch and roll"});
+  v("body_from_camera", c.body_from_camera,
+    {.meaning = "pose of the camera in the body as a 4 x 4 matrix, row by row, instead of position and angles"});
+  v("imu_from_camera", c.imu_from_camera,
+    {.meaning = "the same in the frame of the IMU (forward, left, up), as T_BS of EuRoC"});
+  v("camera_from_imu", c.camera_from_imu, {.meaning = "the inverse of imu_from_camera, as T_cam_imu of Kalibr"});
   v("imperfections", c.imperfections,
     {.meaning =
          "noise, blur, rolling shutter and frame faults; default: for grey and color, those of the rig's sensor"});
@@ -212,6 +238,8 @@ struct RigConfig {
   std::vector<CameraConfig> cameras;
   std::vector<StereoConfig> stereo;
   std::optional<ImperfectionsConfig> sensor;  ///< of every grey or color camera without imperfections
+  std::filesystem::path calibration;
+  std::vector<std::filesystem::path> read_calibrations;  ///< files whose content is now in the cameras' keys
 
   /// Returns the camera of a role, or null.
   const CameraConfig* find(std::string_view role) const;
@@ -229,11 +257,16 @@ void describe(Visitor& v, fields::ConfigOf<RigConfig> auto& c) {
   v("stereo", c.stereo, {.meaning = "stereo pairs; a resolved scenario lists their cameras"});
   v("sensor", c.sensor,
     {.meaning = "imperfections of every grey or color camera without its own; a resolved scenario lists them there"});
+  v("calibration", c.calibration,
+    {.meaning = "calibration file of several cameras, as for a camera; cameras of the rig with the role or name of an "
+                "entry take it, other entries become cameras"});
 }
 
-/// Replaces every stereo pair by its two cameras, left before right, after the other cameras; then gives the rig's
-/// sensor to every grey or color camera without imperfections of its own. Has no effect on a mounted rig.
-void mount_rig(RigConfig& rig);
+/// Applies calibration files (sim/scenario/calibration_file.h); replaces every stereo pair by its two cameras, left
+/// before right, after the other cameras; then gives the rig's sensor to every grey or color camera without
+/// imperfections of its own. Has no effect on a mounted rig. @param p_BI_m  position of the IMU in B. Throws
+/// fields::InvalidField for a calibration that cannot be used.
+void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m = Eigen::Vector3d::Zero());
 
 /// Returns the angle that one pixel spans along a column at the optical axis, rad: 1 over the focal length in px.
 double pixel_angle_rad(const vision::camera::Camera& camera);

@@ -31,6 +31,12 @@ class Validator {
     return errors_.empty();
   }
 
+  /// Mounts the rig; returns whether that succeeds and every field is still within its bounds.
+  bool mounts() {
+    build("rig", [&] { mount_rig(scenario_.rig, scenario_.avionics.imu.p_BI_m); });
+    return errors_.empty() && bounds();
+  }
+
   /// The name is also the name of the folder of results.
   void name() {
     constexpr size_t kMaxLetters = 200;
@@ -62,7 +68,10 @@ class Validator {
   void rig() {
     const std::vector<CameraConfig>& cameras = scenario_.rig.cameras;
     for (size_t i = 0; i < cameras.size(); ++i) {
-      build(fmt::format("rig.cameras.{}", i), [&] { cameras[i].model(); });
+      build(fmt::format("rig.cameras.{}", i), [&] {
+        cameras[i].model();
+        cameras[i].X_BC();
+      });
       imperfections(fmt::format("rig.cameras.{}.imperfections", i), cameras[i]);
       const std::string path = fmt::format("rig.cameras.{}.role", i);
       if (cameras[i].role.empty()) add(path, "must not be empty");
@@ -208,7 +217,7 @@ class Validator {
 Validation validate(Scenario& scenario, ModuleSource source) {
   Validator validator(scenario, source);
   if (!validator.bounds()) return validator.take();
-  mount_rig(scenario.rig);
+  if (!validator.mounts()) return validator.take();
   validator.name();
   validator.start();
   validator.rates();

@@ -99,7 +99,7 @@ TEST(RigFile, RefusesKeysThatDoNotGoTogether) {
   EXPECT_THAT(refusal("view_limit: 60"), HasSubstr("view_limit: is for a fisheye"));
   EXPECT_THAT(refusal("model: ocam"), HasSubstr("calibration: model: ocam needs the file"));
   EXPECT_THAT(refusal("model: ocam, calibration: none.txt"), HasSubstr("there is no such file"));
-  EXPECT_THAT(refusal("calibration: lens.txt"), HasSubstr("calibration: is for model: ocam"));
+  EXPECT_THAT(refusal("calibration: lens.txt"), HasSubstr("calibration: has not been applied"));
   Folder::write("lens.txt", vision::kSmallCalibration);
   EXPECT_THAT(refusal("model: ocam, calibration: lens.txt"), HasSubstr("width and height must be 752 and 480"));
   EXPECT_THAT(refusal("model: ocam, calibration: lens.txt, width: 752, height: 480, focal_x: 3"),
