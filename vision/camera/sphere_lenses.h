@@ -22,7 +22,7 @@ struct UnifiedLens {
   std::optional<Eigen::Vector3d> unit_ray(const Eigen::Vector2d& pixel) const;
 };
 
-/// The double-sphere lens of [UsenkoDemmelCremers2018], eq. (40) to (52). Kalibr: ds.
+/// The double-sphere lens, after [UsenkoDemmelCremers2018]. Kalibr: ds.
 struct DoubleSphereLens {
   double focal_x_px = 0.0, focal_y_px = 0.0;
   double center_u_px = 0.0, center_v_px = 0.0;

@@ -1,4 +1,4 @@
-// Calibration files of other programs: what they state is what the camera has.
+// Calibration files of other programs give the camera exactly the numbers that they state.
 #include "sim/scenario/calibration_file.h"
 
 #include <fmt/format.h>
@@ -136,7 +136,7 @@ TEST(CalibrationFile, YamlAndXmlOfOpenCv) {
   }
 }
 
-TEST(CalibrationFile, RefusesWhatIsNotImplementedByItsName) {
+TEST(CalibrationFile, RefusesModelsThatAreNotImplementedByTheirNames) {
   EXPECT_THAT(fault_of_calibration(opencv("1, 2, 3, 4, 5, 6, 7, 8, 1e-3, 0, 0, 0")), HasSubstr("thin prism"));
   EXPECT_THAT(fault_of_calibration(opencv("1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 0, 0.1, 0")), HasSubstr("tilted"));
   EXPECT_THAT(fault_of_calibration(kalibr("eucm", "0.6, 1.1, 460, 461, 320, 240", "none", "")),
@@ -145,7 +145,7 @@ TEST(CalibrationFile, RefusesWhatIsNotImplementedByItsName) {
               HasSubstr("'fov' is not implemented"));
 }
 
-TEST(CalibrationFile, RefusesWhatIsNoCalibrationWithLineAndValidValues) {
+TEST(CalibrationFile, RefusesOtherFilesWithLineAndValidValues) {
   EXPECT_THAT(fault_of_calibration("a: 1"), HasSubstr("valid: Kalibr's camera chain"));
   EXPECT_THAT(fault_of_calibration(""), HasSubstr("calibration"));
   EXPECT_THAT(fault_of_calibration("<opencv_storage><a>"), HasSubstr("cannot be read as XML"));
@@ -178,7 +178,7 @@ std::string two_cameras(const std::string& first) {
          "forward: 0.3333333, down: 0.7777777}]}";
 }
 
-TEST(CalibrationFile, WhatHedgehopWritesItReadsToTheLastDigit) {
+TEST(CalibrationFile, HedgehopReadsItsOwnFilesToTheLastDigit) {
   Folder folder;
   const std::vector<std::string> lenses = {
       "model: fisheye, fov: 171.7, distortion: [0.0123, -0.00456, 7.89e-4, -1.01e-5]",
