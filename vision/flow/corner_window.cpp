@@ -12,8 +12,8 @@ namespace hedgehop::vision::flow {
 namespace {
 
 constexpr int kWeightBits = 14, kGreyBits = 5;  // fractional bits of interpolation weights and of grey levels
-constexpr int kLanes = CornerRows::kLanes;
-constexpr int16_t kWithin[2 * kLanes] = {-1, -1, -1, -1, -1, -1, -1, -1};  // ones in all bits, then zeros
+constexpr int kRowLanes = CornerRows::kLanes;
+constexpr int16_t kWithin[2 * kRowLanes] = {-1, -1, -1, -1, -1, -1, -1, -1};  // ones in all bits, then zeros
 
 cv::v_int16x8 repeat_pair(int16_t left, int16_t right) { return {left, right, left, right, left, right, left, right}; }
 
@@ -198,19 +198,19 @@ CornerWeights::CornerWeights(const cv::Point2f& part) {
 
 std::array<int64_t, 3> load_rows(const CornerRows& rows, const CornerWeights& corner_weights) {
   std::array<int64_t, 3> sums;
-  if (rows.stride == 2 * kLanes && load_of_16(rows, corner_weights, sums)) return sums;
+  if (rows.stride == 2 * kRowLanes && load_of_16(rows, corner_weights, sums)) return sums;
   const Weights weights(corner_weights);
   Sum xx, xy, yy;
   for (int y = 0; y < rows.window; ++y) {
     const ptrdiff_t to = static_cast<ptrdiff_t>(y) * rows.stride;
-    for (int x = 0; x < rows.stride; x += kLanes) {
+    for (int x = 0; x < rows.stride; x += kRowLanes) {
       const uint8_t* grey = rows.pixels + y * rows.pixel_step + x;
       cv::v_store(rows.grey + to + x, interpolate_grey(grey, grey + rows.pixel_step, weights));
       cv::v_int16x8 px[4], py[4];
       for (int i = 0; i < 4; ++i) {
         cv::v_load_deinterleave(rows.gradients + (y + i / 2) * rows.gradient_step + 2 * (x + i % 2), px[i], py[i]);
       }
-      const auto within = cv::v_load(kWithin + kLanes - std::min(kLanes, rows.window - x));
+      const auto within = cv::v_load(kWithin + kRowLanes - std::min(kRowLanes, rows.window - x));
       const auto slope_x = interpolate<kWeightBits>(px[0], px[1], px[2], px[3], weights) & within;
       const auto slope_y = interpolate<kWeightBits>(py[0], py[1], py[2], py[3], weights) & within;
       cv::v_store(rows.gradient_x + to + x, slope_x);
@@ -225,12 +225,12 @@ std::array<int64_t, 3> load_rows(const CornerRows& rows, const CornerWeights& co
 
 std::array<int64_t, 2> mismatch_of_rows(const CornerRows& rows, const CornerWeights& corner_weights) {
   std::array<int64_t, 2> sums;
-  if (rows.stride == 2 * kLanes && mismatch_of_16(rows, corner_weights, sums)) return sums;
+  if (rows.stride == 2 * kRowLanes && mismatch_of_16(rows, corner_weights, sums)) return sums;
   const Weights weights(corner_weights);
   Sum sum_x, sum_y;
   for (int y = 0; y < rows.window; ++y) {
     const ptrdiff_t from = static_cast<ptrdiff_t>(y) * rows.stride;
-    for (int x = 0; x < rows.stride; x += kLanes) {
+    for (int x = 0; x < rows.stride; x += kRowLanes) {
       const uint8_t* grey = rows.pixels + y * rows.pixel_step + x;
       const auto difference =
           interpolate_grey(grey, grey + rows.pixel_step, weights) - cv::v_load(rows.grey + from + x);
