@@ -18,6 +18,10 @@ Scene generate(const worlds::HighriseConfig& config, uint64_t seed) { return wor
 Scene generate(const worlds::BalloonConfig& config, uint64_t seed) { return worlds::make_balloon(config, seed); }
 Scene generate(const worlds::WallConfig& config, uint64_t seed) { return worlds::make_wall(config, seed); }
 Scene generate(const worlds::ParkConfig& config, uint64_t seed) { return worlds::make_park(config, seed); }
+Scene generate(const worlds::CheckerboardConfig& config, uint64_t seed) {
+  return worlds::make_checkerboard(config, seed);
+}
+Scene generate(const worlds::AprilGridConfig& config, uint64_t seed) { return worlds::make_aprilgrid(config, seed); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "scenes/scene.h"
 #include "scenes/worlds/balloon.h"
+#include "scenes/worlds/calibration_board.h"
 #include "scenes/worlds/corridor.h"
 #include "scenes/worlds/highrise.h"
 #include "scenes/worlds/park.h"
@@ -15,9 +16,10 @@
 
 namespace hedgehop::scenes {
 
-using SceneConfig = std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds::TreeConfig, worlds::ForestConfig,
-                                 worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig,
-                                 worlds::WallConfig, worlds::ParkConfig>;
+using SceneConfig =
+    std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds::TreeConfig, worlds::ForestConfig,
+                 worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig, worlds::WallConfig,
+                 worlds::ParkConfig, worlds::CheckerboardConfig, worlds::AprilGridConfig>;
 
 /// Returns the scene of `config`. Equal arguments give scenes that are equal bit for bit.
 /// @throws std::invalid_argument with the field, its value and the valid values.

@@ -1,7 +1,7 @@
 """CPU time of whole flights with `tiles`, in multiples of real time, and the time and size of the page of a long flight.
 
 The start of a flight (process, scene, first image) is subtracted: it is that of a flight of 0.1 s. The medians of the stages
-show where the time goes.
+are printed, too.
 """
 
 import json

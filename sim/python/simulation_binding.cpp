@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,6 +30,17 @@ sim::ImageChannel to_channel(const std::string& name) {
   throw std::invalid_argument("channel '" + name + "'; allowed: grey, color, depth, labels");
 }
 static_assert(static_cast<int>(sim::ImageChannel::labels) == 3);
+
+/// @param quaternion  of the body to the world, w x y z.
+sim::ChosenPose chosen_pose(const Eigen::Vector3d& position_m, const Eigen::Vector4d& quaternion, double t_s) {
+  const Eigen::Quaterniond q_WB(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
+  constexpr double kMaxError = 1e-3;
+  if (!(std::abs(q_WB.norm() - 1.0) <= kMaxError)) throw std::invalid_argument("a quaternion must have length 1");
+  sim::ChosenPose pose{.t_s = t_s};
+  pose.X_WB.linear() = q_WB.normalized().toRotationMatrix();
+  pose.X_WB.translation() = position_m;
+  return pose;
+}
 
 /// A simulation and its thread. Other threads are not blocked while it flies.
 class PySimulation {
@@ -201,6 +213,21 @@ void bind_simulation(py::module_& native) {
       .def(
           "flow_to_next_image",
           [](PySimulation& s, const std::string& role) { return view_of(s.get().flow_to_next_image(role)); }, "role"_a)
+      .def(
+          "image_from",
+          [](PySimulation& s, const std::string& role, const std::string& channel, const Eigen::Vector3d& position,
+             const Eigen::Vector4d& quaternion, double t_s) {
+            return view_of(s.get().image_from(role, to_channel(channel), chosen_pose(position, quaternion, t_s)));
+          },
+          "role"_a, "channel"_a, "position"_a, "quaternion"_a, "t_s"_a = 0.0)
+      .def(
+          "flow_between",
+          [](PySimulation& s, const std::string& role, const std::pair<Eigen::Vector3d, Eigen::Vector4d>& from,
+             const std::pair<Eigen::Vector3d, Eigen::Vector4d>& to, double from_s, double to_s) {
+            return view_of(s.get().flow_between(role, chosen_pose(from.first, from.second, from_s),
+                                                chosen_pose(to.first, to.second, to_s)));
+          },
+          "role"_a, "start"_a, "end"_a, "start_s"_a = 0.0, "end_s"_a = 0.0)
       .def("over", [](PySimulation& s) { return s.get().over(); })
       .def("decides", [](PySimulation& s) { return s.get().decides(); })
       .def("t_s", [](PySimulation& s) { return s.get().t_s(); })

@@ -191,6 +191,27 @@ cv::Mat Simulation::image(std::string_view role, ImageChannel channel) {
   return impl_->episode().cameras().image(camera, channel, now, now);
 }
 
+namespace {
+
+Cameras::Instant instant_of(const ChosenPose& pose) {
+  if (!pose.X_WB.matrix().allFinite() || !(pose.t_s >= 0.0) || !std::isfinite(pose.t_s)) {
+    throw std::invalid_argument("a chosen pose must be finite, at a time of at least 0");
+  }
+  return {std::llround(1e9 * pose.t_s), {.X_WB = pose.X_WB}};
+}
+
+}  // namespace
+
+cv::Mat Simulation::image_from(std::string_view role, ImageChannel channel, const ChosenPose& pose) {
+  if (channel == ImageChannel::flow) throw std::invalid_argument("optic flow needs two poses; use flow_between()");
+  const Cameras::Instant at = instant_of(pose);
+  return impl_->episode().cameras().image(impl_->camera(role), channel, at, at);
+}
+
+cv::Mat Simulation::flow_between(std::string_view role, const ChosenPose& from, const ChosenPose& to) {
+  return impl_->episode().cameras().image(impl_->camera(role), ImageChannel::flow, instant_of(from), instant_of(to));
+}
+
 cv::Mat Simulation::flow_to_next_image(std::string_view role) {
   const size_t camera = impl_->camera(role);
   Cameras& cameras = impl_->episode().cameras();

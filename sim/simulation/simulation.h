@@ -30,6 +30,12 @@ struct TrueMotion {
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();  ///< of the air, m/s
 };
 
+/// A pose of the body at a time >= 0 that the caller chooses.
+struct ChosenPose {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  double t_s = 0.0;  ///< of the moving objects
+};
+
 /// A scenario in flight, flown to its end in one call or stepped by the caller. Equal scenarios and commands give
 /// bit-identical flights, however they are stepped. A process may have several; each is used by the thread that made
 /// it.
@@ -88,6 +94,13 @@ class Simulation {
   /// Flies for one period of the camera and returns the true optic flow from its previous image, CV_32FC2, px. Throws
   /// InputError if the flight ends before.
   cv::Mat flow_to_next_image(std::string_view role);
+
+  /// Returns the image of a camera from a chosen pose, at rest, in any channel, with its imperfections. Does not change
+  /// the flight. Throws InputError for a role that the rig lacks, std::invalid_argument for ImageChannel::flow, and for
+  /// a pose that is not finite or a negative time.
+  cv::Mat image_from(std::string_view role, ImageChannel channel, const ChosenPose& pose);
+  /// Returns the true optic flow of a camera from one chosen pose to another, CV_32FC2, px. Throws as image_from().
+  cv::Mat flow_between(std::string_view role, const ChosenPose& from, const ChosenPose& to);
 
   /// Returns the results of the scenario's checks as if the flight ended now.
   std::vector<CheckResult> checks_so_far() const;

@@ -117,6 +117,16 @@ class Simulation:
         """Flies one period of the camera. Returns the true optic flow of its previous image, px."""
         return self._native.flow_to_next_image(role)
 
+    def image_from(self, role: str, channel: str, position, quaternion, t_s: float = 0.0) -> np.ndarray:
+        """Returns the image of a camera from a chosen pose of the body, at rest: north, east, down, m; w, x, y, z of the rotation
+        from the body to the world. `t_s` is the time of the moving objects. Does not change the flight."""
+        return self._native.image_from(role, channel, position, quaternion, t_s)
+
+    def flow_between(self, role: str, start, end, start_s: float = 0.0, end_s: float = 0.0) -> np.ndarray:
+        """Returns the true optic flow of a camera between two chosen poses, px. A pose is (position, quaternion), as in
+        image_from()."""
+        return self._native.flow_between(role, start, end, start_s, end_s)
+
     def checks_so_far(self) -> "list[dict]":
         """Returns the results of the checks if the flight ended now: dicts of name, passed, value, limit, unit."""
         return self._native.checks_so_far()

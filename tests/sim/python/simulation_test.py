@@ -99,6 +99,21 @@ class Images(unittest.TestCase):
             asked.step()
         self.assertEqual(asked.result()["trajectory_hash"], city().run()["trajectory_hash"])
 
+    def test_images_from_chosen_poses_are_those_of_the_flight(self):
+        sim = city()
+        for _ in range(5):
+            sim.step()
+        truth = sim.truth
+        pose = (truth.p_WB_m, truth.q_WB)
+        depth = np.array(sim.image("front", "depth"))
+        sim.step()
+        np.testing.assert_array_equal(sim.image_from("front", "depth", *pose), depth)
+        flow = np.array(sim.flow_between("front", pose, (sim.truth.p_WB_m, sim.truth.q_WB)))
+        self.assertGreater(np.nanmax(np.abs(flow)), 0.0)
+        self.assertEqual(np.nanmax(np.abs(sim.flow_between("front", pose, pose))), 0.0)
+        with self.assertRaisesRegex(ValueError, "length 1"):
+            sim.image_from("front", "grey", (0, 0, -10), (1, 1, 0, 0))
+
     def test_rays_are_those_of_a_pinhole(self):
         camera = city().cameras["front"]
         p, rays = camera.pinhole, camera.rays()
