@@ -41,6 +41,7 @@ void add_boxes(const std::vector<BoxConfig>& boxes, uint64_t seed, Scene& scene)
     fields::require_bounds(c, "boxes." + std::to_string(k));
     const Eigen::AlignedBox3d box_K(Vector3d(-0.5 * c.length_m, -0.5 * c.width_m, -c.height_m),
                                     Vector3d(0.5 * c.length_m, 0.5 * c.width_m, 0.0));
+    builder.begin_instance(c.name, SemanticClass::building);
     builder.begin_chunk(c.heading_rad == 0.0);  // a rotated box does not fill the bounds of its chunk
     mesh::add_box(box_K, X_WK(c), brick, builder);
     scene.solids.push_back(mesh::solid_of(c.name, box_K, X_WK(c)));
@@ -101,6 +102,11 @@ class MoverImages {
   std::optional<uint32_t> signal_, bark_, leaves_;
 };
 
+SemanticClass class_of(Shape shape) {
+  if (shape == Shape::balloon) return SemanticClass::balloon;
+  return shape == Shape::tree ? SemanticClass::tree : SemanticClass::pole;
+}
+
 Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
   mesh::MeshBuilder mesh("opaque");
   Mover mover{.name = c.name, .mesh = {}, .solids = {}, .motion = c.motion};
@@ -109,6 +115,7 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
     mover.solids.push_back(mesh::solid_of(c.name, post));
   };
 
+  mesh.begin_instance(c.name, class_of(c.shape));
   mesh.begin_chunk(false);
   if (c.shape == Shape::tree) {
     Random random(seed);

@@ -32,4 +32,17 @@ const Solid& solid_at(const Scene& scene, size_t index) {
   throw std::out_of_range("the scene has fewer solids");
 }
 
+std::vector<Instance> instances(const Scene& scene) {
+  std::vector<Instance> all;
+  for (const Mesh& mesh : scene.meshes) all.insert(all.end(), mesh.instances.begin(), mesh.instances.end());
+  for (const Mover& mover : scene.movers) all.push_back({mover.name, mover.mesh.instances.front().kind});
+  return all;
+}
+
+int first_mover_label(const Scene& scene) {
+  size_t label = 1;
+  for (const Mesh& mesh : scene.meshes) label += mesh.instances.size();
+  return static_cast<int>(label);
+}
+
 }  // namespace hedgehop::scenes

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/instance.h"
 #include "scenes/mesh/polyhedron.h"
 #include "scenes/motion.h"
 #include "scenes/texture_list.h"
@@ -40,6 +41,7 @@ struct Vertex {
   Eigen::Vector3f n_W = -Eigen::Vector3f::UnitZ();  ///< unit outward normal
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();     ///< 1 = one repeat; row 0 of the image at v = 0, v grows downwards
   uint32_t texture = 0;                             ///< index into Scene::textures
+  uint32_t instance = 0;                            ///< index into Mesh::instances; equal at all corners of a triangle
 };
 
 /// The subset of a chunk's triangles that suffices at a distance. Movers are always drawn completely.
@@ -65,14 +67,15 @@ struct Mesh {
   std::string material;  ///< always "opaque" so far
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<Chunk> chunks;          ///< cover all indices, in order
-  std::vector<uint32_t> far_indices;  ///< of the chunks' far details
+  std::vector<Chunk> chunks;                                   ///< cover all indices, in order
+  std::vector<uint32_t> far_indices;                           ///< of the chunks' far details
+  std::vector<Instance> instances = std::vector<Instance>(1);  ///< at least one
 };
 
 /// A moving obstacle. It translates without rotation: the axes of its frame M remain parallel to those of W.
 struct Mover {
   std::string name;
-  Mesh mesh;                  ///< like other meshes, but in M instead of W; uses the scene's textures
+  Mesh mesh;                  ///< like other meshes, but in M instead of W; one instance; uses the scene's textures
   std::vector<Solid> solids;  ///< in M instead of W: X_WS holds X_MS
   Motion motion;
 };
@@ -114,5 +117,11 @@ size_t solid_count(const Scene& scene);
 /// Returns a solid of the scene; indices past its own solids refer to those of its movers, in order.
 /// @param index  < solid_count().
 const Solid& solid_at(const Scene& scene, size_t index);
+
+/// Returns the instances of all meshes in order, then one for each mover. The label of element i in images is 1 + i.
+std::vector<Instance> instances(const Scene& scene);
+
+/// Returns the label of the first mover.
+int first_mover_label(const Scene& scene);
 
 }  // namespace hedgehop::scenes

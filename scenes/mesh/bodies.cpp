@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace hedgehop::scenes::mesh {
@@ -173,14 +174,18 @@ void extend_to_horizon(std::vector<double>& lines_m) {
 }  // namespace
 
 void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
-                const std::function<Cover(const Eigen::Vector2d& middle_NE)>& cover_at, MeshBuilder& mesh) {
+                const std::function<GroundCell(const Eigen::Vector2d& middle_NE)>& cell_at, MeshBuilder& mesh) {
   extend_to_horizon(norths_m);
   extend_to_horizon(easts_m);
   mesh.begin_chunk(false);
+  const uint32_t ground = mesh.begin_instance("ground", SemanticClass::ground);
+  std::optional<uint32_t> road;
   for (size_t i = 1; i < norths_m.size(); ++i) {
     for (size_t j = 1; j < easts_m.size(); ++j) {
       const Eigen::Vector3d low(norths_m[i - 1], easts_m[j - 1], 0.0), high(norths_m[i], easts_m[j], 0.0);
-      const Cover cover = cover_at(0.5 * (low + high).head<2>());
+      const auto [cover, is_road] = cell_at(0.5 * (low + high).head<2>());
+      if (is_road && !road) road = mesh.begin_instance("road", SemanticClass::road);
+      mesh.resume_instance(is_road ? *road : ground);
       const Eigen::Vector2d from_origin_m(low.y(), -high.x());  // up in the image is north
       mesh.add_tiled(top_panel({low, high}), cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
     }
@@ -191,7 +196,7 @@ void add_ground(double half_m, const Cover& cover, MeshBuilder& mesh) {
   std::vector<double> lines_m;
   for (int k = -4; k <= 4; ++k) lines_m.push_back(0.25 * k * half_m);
   add_ground(
-      lines_m, lines_m, [&](const Eigen::Vector2d&) { return cover; }, mesh);
+      lines_m, lines_m, [&](const Eigen::Vector2d&) { return GroundCell{cover}; }, mesh);
 }
 
 }  // namespace hedgehop::scenes::mesh

@@ -48,12 +48,18 @@ Solid solid_of(const std::string& name, const Polyhedron& body);
 /// Returns a solid sphere. @param center_W  m.
 Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double radius_m);
 
-/// Adds the ground at z = 0 in a chunk of its own: a grid of panels that extends at least 12 km from the origin.
-/// Textures start at W's origin.
+/// The surface of a cell of the ground.
+struct GroundCell {
+  Cover cover;
+  bool is_road = false;
+};
+
+/// Adds the ground at z = 0 in a chunk of its own: a grid of panels that extends at least 12 km from the origin. Its
+/// instances are the ground and, if a cell has one, the road. Textures start at W's origin.
 /// @param norths_m, easts_m  lines of the grid, in order; at least two of each, on both sides of 0.
-/// @param cover_at  returns the texture of a cell from the cell's center in the plan (north, east), m.
+/// @param cell_at  returns a cell from its center in the plan (north, east), m.
 void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
-                const std::function<Cover(const Eigen::Vector2d& middle_NE)>& cover_at, MeshBuilder& mesh);
+                const std::function<GroundCell(const Eigen::Vector2d& middle_NE)>& cell_at, MeshBuilder& mesh);
 
 /// Adds ground with one texture. The grid is fine within `half_m` of the origin.
 void add_ground(double half_m, const Cover& cover, MeshBuilder& mesh);

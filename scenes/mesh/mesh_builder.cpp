@@ -42,6 +42,12 @@ Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_K, const 
   return solid;
 }
 
+uint32_t MeshBuilder::begin_instance(const std::string& name, SemanticClass kind) {
+  instance_ = static_cast<uint32_t>(mesh_.instances.size());
+  mesh_.instances.push_back({name, kind});
+  return instance_;
+}
+
 void MeshBuilder::begin_chunk(bool fills_box_to_ground) {
   Chunk chunk;
   chunk.first_index = static_cast<uint32_t>(mesh_.indices.size());
@@ -57,7 +63,7 @@ void MeshBuilder::add(const TexturedPanel& panel, const ImageArea& area, uint32_
     if (right) p_W += panel.right_m;
     if (down) p_W += panel.down_m;
     const Eigen::Vector2d uv(right ? area.u1 : area.u0, down ? area.v1 : area.v0);
-    mesh_.vertices.push_back({p_W.cast<float>(), normal, uv.cast<float>(), texture});
+    mesh_.vertices.push_back({p_W.cast<float>(), normal, uv.cast<float>(), texture, instance_});
     mesh_.chunks.back().box_W.extend(mesh_.vertices.back().p_W);
   };
 
@@ -81,6 +87,7 @@ void MeshBuilder::add(std::span<const Vertex> vertices, std::span<const std::arr
   const auto first = static_cast<uint32_t>(mesh_.vertices.size());
   for (const Vertex& vertex : vertices) {
     mesh_.vertices.push_back(vertex);
+    mesh_.vertices.back().instance = instance_;
     mesh_.chunks.back().box_W.extend(vertex.p_W);
   }
   for (const std::array<uint32_t, 3>& face : faces) {
@@ -98,6 +105,9 @@ void MeshBuilder::keep_from_afar(size_t first_index, double lost_m) {
   far.lost_m = std::max(far.lost_m, static_cast<float>(lost_m));
 }
 
-Mesh MeshBuilder::finish() { return std::move(mesh_); }
+Mesh MeshBuilder::finish() {
+  if (mesh_.instances.empty()) mesh_.instances.resize(1);
+  return std::move(mesh_);
+}
 
 }  // namespace hedgehop::scenes::mesh

@@ -34,10 +34,18 @@ Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_W);
 /// Returns a box of arbitrary pose as a solid. @param box_K  in a frame K, m. @param X_WK  pose of K.
 Solid solid_of(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK);
 
-/// Builds a mesh chunk by chunk. Faces are added to the current chunk, the last one begun.
+/// Builds a mesh chunk by chunk. Faces are added to the current chunk, the last one begun, and to the current instance.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(std::string material) { mesh_.material = std::move(material); }
+  explicit MeshBuilder(std::string material) {
+    mesh_.material = std::move(material);
+    mesh_.instances.clear();
+  }
+
+  /// Begins an instance. Instances and chunks are independent of each other. @return its index in the mesh.
+  uint32_t begin_instance(const std::string& name, SemanticClass kind);
+  /// Makes an earlier instance the current one.
+  void resume_instance(uint32_t instance) { instance_ = instance; }
 
   void begin_chunk(bool fills_box_to_ground);
   void add(const TexturedPanel& panel, const ImageArea& area, uint32_t texture);
@@ -61,6 +69,7 @@ class MeshBuilder {
 
  private:
   Mesh mesh_;
+  uint32_t instance_ = 0;
 };
 
 }  // namespace hedgehop::scenes::mesh

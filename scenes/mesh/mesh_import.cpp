@@ -145,6 +145,7 @@ void add_import(const ImportConfig& c, Scene& scene) {
   const Eigen::Affine3d to_W = model_to_world(c);
   std::vector<int> images(model->mNumMaterials, -1);
   MeshBuilder builder("opaque");
+  builder.begin_instance(c.name, c.kind);
   size_t triangles = 0;
   for (const aiMesh* mesh : std::span(model->mMeshes, model->mNumMeshes)) {
     const Polyhedron body = faces_W(*mesh, to_W);

@@ -21,6 +21,7 @@ struct ImportConfig {
 
   std::string file;
   std::string name = "mesh";
+  SemanticClass kind = SemanticClass::other;
   double north_m = 0.0, east_m = 0.0, altitude_m = 0.0;
   double heading_rad = 0.0;
   double scale = 1.0;
@@ -33,6 +34,8 @@ void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
   v("file", c.file,
     {.required = true, .meaning = "OBJ or glTF file; relative to the folder of the file that names it"});
   v("name", c.name, {.meaning = "name of the obstacle in results"});
+  v("class", c.kind,
+    {.choices = {kSemanticClassNames.begin(), kSemanticClassNames.end()}, .meaning = "class in semantic images"});
   v("north", c.north_m, {.unit = "m", .meaning = "north position of the model's origin"});
   v("east", c.east_m, {.unit = "m", .meaning = "east position of the model's origin"});
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the model's origin"});

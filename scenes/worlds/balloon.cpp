@@ -34,9 +34,11 @@ Scene make_balloon(const BalloonConfig& config, uint64_t seed) {
   for (int64_t k = 0; k < config.markers; ++k) {
     const double north_m = static_cast<double>(k + 1) * config.marker_spacing_m;
     const mesh::Post marker{{north_m, kMarkerEastM, 0.0}, kMarkerRadiusM, kMarkerHeightM};
+    const std::string name = "marker " + std::to_string(k + 1);
+    mesh.begin_instance(name, SemanticClass::pole);
     mesh.begin_chunk(false);
     mesh::add_post(marker, 12, {marking, 1.0}, mesh);
-    scene.solids.push_back(mesh::solid_of("marker " + std::to_string(k + 1), marker));
+    scene.solids.push_back(mesh::solid_of(name, marker));
   }
   scene.meshes.push_back(mesh.finish());
   add_movers({{.name = "balloon",

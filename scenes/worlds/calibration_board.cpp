@@ -55,6 +55,7 @@ class Board {
     const double half_m = std::max(width_m, std::abs(north_m)) + 20.0;
     scene_.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
     mesh::add_ground(half_m, {kMeadow, textures::kGrassTileM}, mesh_);
+    mesh_.begin_instance(scene_.name, SemanticClass::other);
     mesh_.begin_chunk(false);
     const Eigen::AlignedBox3d box_W(
         Eigen::Vector3d(north_m, -0.5 * width_m, -altitude_m - 0.5 * height_m),

@@ -58,6 +58,11 @@ mesh::TexturedPanel ground_panel(const GroundStrip& north, const GroundStrip& ea
 
 bool in_country(GroundUse band) { return band == GroundUse::country || band == GroundUse::near_country; }
 
+bool on_road(const GroundStrip& north, const GroundStrip& east) {
+  if (in_country(north.band) || in_country(east.band)) return false;
+  return north.band == GroundUse::street || east.band == GroundUse::street;
+}
+
 // Crop on a third of the fields away from the city; grass elsewhere.
 uint32_t country_image(const GroundStrip& north, const GroundStrip& east, const textures::CityTextures& city,
                        uint64_t seed) {
@@ -97,11 +102,14 @@ void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, 
   const uint64_t field_seed = derived_seed(seed, 1);
   constexpr size_t kStripsPerChunk = 4;  // two cells of the city
   const std::vector<GroundStrip> strips = strips_along_axis(plan);
+  const uint32_t ground = mesh.begin_instance("ground", SemanticClass::ground);
+  const uint32_t road = mesh.begin_instance("road", SemanticClass::road);
   for (size_t row = 0; row < strips.size(); row += kStripsPerChunk) {
     for (size_t column = 0; column < strips.size(); column += kStripsPerChunk) {
       mesh.begin_chunk(false);
       for (size_t r = row; r < std::min(row + kStripsPerChunk, strips.size()); ++r) {
         for (size_t c = column; c < std::min(column + kStripsPerChunk, strips.size()); ++c) {
+          mesh.resume_instance(on_road(strips[r], strips[c]) ? road : ground);
           add_cell(strips[r], strips[c], city, field_seed, random, mesh);
         }
       }

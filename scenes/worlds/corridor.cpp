@@ -33,33 +33,41 @@ Eigen::Isometry3d floor_frame(const Vector2d& origin_NE, const Vector2d& along_N
   return X_WK;
 }
 
-// Adds boxes to a mesh and to the solids. Each box is a chunk with a random texture.
+// Adds boxes to a mesh and to the solids. Each box is a chunk with a random texture. The boxes since begin() are one
+// instance.
 class WallBuilder {
  public:
   WallBuilder(uint64_t seed, Scene& scene, mesh::MeshBuilder& mesh) : random_(seed), scene_(scene), mesh_(mesh) {}
 
-  void build(const std::string& name, const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
+  void begin(const std::string& name) {
+    name_ = name;
+    mesh_.begin_instance(name, SemanticClass::wall);
+  }
+
+  void build(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK) {
     const Vector2d offset(uniform(random_, 0.0, 1.0), 0.0);
     mesh_.begin_chunk(false);
     mesh::add_box(box_K, X_WK, {static_cast<uint32_t>(uniform_index(random_, kWalls)), textures::kWallTileM, offset},
                   mesh_);
-    scene_.solids.push_back(mesh::solid_of(name, box_K, X_WK));
+    scene_.solids.push_back(mesh::solid_of(name_, box_K, X_WK));
   }
 
   /// Builds a wall along a path in the plan, on its left side. At right turns and at both ends the sections extend past
   /// the corner, which closes the wedge behind it.
   void build_wall(const std::string& name, const std::vector<Vector2d>& path_NE, double height_m) {
+    begin(name);
     for (size_t k = 1; k < path_NE.size(); ++k) {
       const Vector2d from = path_NE[k - 1], along = (path_NE[k] - from).normalized();
       const bool on_before = k == 1 || turns_right(from - path_NE[k - 2], along);
       const bool on_after = k + 1 == path_NE.size() || turns_right(along, path_NE[k + 1] - path_NE[k]);
       const double first_m = on_before ? -kThicknessM : 0.0;
       const double last_m = (path_NE[k] - from).norm() + (on_after ? kThicknessM : 0.0);
-      build(name, {Vector3d(first_m, -kThicknessM, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
+      build({Vector3d(first_m, -kThicknessM, -height_m), Vector3d(last_m, 0.0, 0.0)}, floor_frame(from, along));
     }
   }
 
  private:
+  std::string name_;
   Random random_;
   Scene& scene_;
   mesh::MeshBuilder& mesh_;
@@ -71,18 +79,19 @@ void add_fixtures(const CorridorConfig& c, const CorridorSection& section, const
   const double half_m = 0.5 * width_m, thin_m = 0.5 * kThicknessM, outer_m = half_m + thin_m;
   if (section.doorway_m > 0.0) {
     const double jamb_m = 0.5 * section.doorway_m;
-    builder.build("doorway", {Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
-    builder.build("doorway", {Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
+    builder.begin("doorway");
+    builder.build({Vector3d(-thin_m, -outer_m, -c.height_m), Vector3d(thin_m, -jamb_m, 0.0)}, X_WK);
+    builder.build({Vector3d(-thin_m, jamb_m, -c.height_m), Vector3d(thin_m, outer_m, 0.0)}, X_WK);
     if (c.door_height_m < c.height_m) {
-      builder.build("lintel", {Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)},
-                    X_WK);
+      builder.begin("lintel");
+      builder.build({Vector3d(-thin_m, -jamb_m, -c.height_m), Vector3d(thin_m, jamb_m, -c.door_height_m)}, X_WK);
     }
   }
   if (section.obstacle_m != 0.0) {
     const double inner_m = half_m - std::abs(section.obstacle_m), side = section.obstacle_m > 0.0 ? 1.0 : -1.0;
     const double one_m = side * inner_m, other_m = side * outer_m, long_m = 0.5 * kPillarLengthM;
+    builder.begin("pillar");
     builder.build(
-        "pillar",
         {Vector3d(-long_m, std::min(one_m, other_m), -c.height_m), Vector3d(long_m, std::max(one_m, other_m), 0.0)},
         X_WK);
   }
@@ -140,6 +149,7 @@ Scene make_corridor(const CorridorConfig& written, uint64_t seed) {
                    high = scene.bounds_NE_m.max().array() + kThicknessM;
     const Eigen::AlignedBox3d ceiling_W(Vector3d(low.x(), low.y(), -config.height_m - kThicknessM),
                                         Vector3d(high.x(), high.y(), -config.height_m));
+    mesh.begin_instance("ceiling", SemanticClass::ceiling);
     mesh.begin_chunk(false);
     mesh::add_box(ceiling_W, Eigen::Isometry3d::Identity(), {kCeiling, textures::kRoomTileM}, mesh);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));

@@ -184,6 +184,7 @@ Scene make_highrise(const HighriseConfig& config, uint64_t seed) {
   for (const Tower& tower : towers(config, seed)) {
     const std::string name = "tower " + std::to_string(wall - kFirstTowerWall + 1);
     const Eigen::AlignedBox3d box_W = tower.box_W();
+    mesh.begin_instance(name, SemanticClass::building);
     mesh.begin_chunk(true);
     for (const mesh::TexturedPanel& panel : mesh::side_panels(box_W)) {
       mesh.add_tiled(panel, textures::FacadeStyle::kTileM, {0.0, -tower.height_m / textures::FacadeStyle::kTileM},

@@ -113,21 +113,23 @@ class ParkBuilder {
                                 .trunk_radius_m = uniform(random(), 0.12, 0.22),
                                 .lobes = 9,
                                 .trunk_sides = 10};
-    mesh_.begin_chunk(false);
-    const std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(number), shape, lumps_, leaves(),
-                                                     {kParkBark, textures::kBarkTileM}, random(), mesh_);
+    const std::string name = "tree " + std::to_string(number);
+    begin(name, SemanticClass::tree);
+    const std::vector<Solid> solids =
+        mesh::add_tree(name, shape, lumps_, leaves(), {kParkBark, textures::kBarkTileM}, random(), mesh_);
     scene_.solids.insert(scene_.solids.end(), solids.begin(), solids.end());
   }
 
   void plant_bush(int64_t number) {
-    add_lump("bush " + std::to_string(number), planner_.take("bushes", uniform(random(), 0.5, 1.2), false),
-             uniform(random(), 0.8, 1.4), leaves());
+    add_lump("bush " + std::to_string(number), SemanticClass::bush,
+             planner_.take("bushes", uniform(random(), 0.5, 1.2), false), uniform(random(), 0.8, 1.4), leaves());
   }
 
   void place_rock(int64_t number) {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
-    add_lump("rock " + std::to_string(number), planner_.take("rocks", uniform(random(), 0.4, 1.0), false),
-             uniform(random(), 0.7, 1.2), {kRock, textures::kRockTileM, offset});
+    add_lump("rock " + std::to_string(number), SemanticClass::rock,
+             planner_.take("rocks", uniform(random(), 0.4, 1.0), false), uniform(random(), 0.7, 1.2),
+             {kRock, textures::kRockTileM, offset});
   }
 
   // Adds a car or, with probability 1/3, a van: a body on the ground and a cabin on top of it.
@@ -141,7 +143,7 @@ class ParkBuilder {
     const double l = 0.5 * length_m, w = 0.5 * width_m, front = is_van ? 0.78 * l : 0.45 * l, body_m = 0.92;
     const uint32_t paint = kFirstPaint + 2 * static_cast<uint32_t>(uniform_index(random(), kPaints));
     const std::string name = (is_van ? "van " : "car ") + std::to_string(number);
-    mesh_.begin_chunk(false);
+    begin(name, SemanticClass::vehicle);
     add_part(name, {Vector3d(-l, -w, -body_m), Vector3d(l, w, 0.0)}, X_WK, paint);
     add_part(name, {Vector3d(is_van ? -l : -0.8 * l, -0.9 * w, -top_m), Vector3d(front, 0.9 * w, -body_m)}, X_WK,
              paint + 1);
@@ -150,6 +152,11 @@ class ParkBuilder {
  private:
   Random& random() { return planner_.random(); }
 
+  void begin(const std::string& name, SemanticClass kind) {
+    mesh_.begin_chunk(false);
+    mesh_.begin_instance(name, kind);
+  }
+
   mesh::Cover leaves() {
     const Vector2d offset(uniform(random(), 0.0, 1.0), uniform(random(), 0.0, 1.0));
     return {kFirstParkLeaves + static_cast<uint32_t>(uniform_index(random(), kParkLeaves)), textures::kLeafTileM,
@@ -157,7 +164,8 @@ class ParkBuilder {
   }
 
   // Adds a lump partly below the ground. `slender` is its height above the ground divided by its radius.
-  void add_lump(const std::string& name, const ParkDisc& disc, double slender, const mesh::Cover& cover) {
+  void add_lump(const std::string& name, SemanticClass kind, const ParkDisc& disc, double slender,
+                const mesh::Cover& cover) {
     const mesh::Polyhedron& lump =
         lumps_[static_cast<size_t>(uniform_index(random(), static_cast<int>(lumps_.size())))];
     const double height_m = slender * disc.radius_m;
@@ -165,7 +173,7 @@ class ParkBuilder {
                                   Eigen::Scaling(disc.radius_m, disc.radius_m, 0.8 * height_m) *
                                   Eigen::AngleAxisd(uniform(random(), 0.0, 6.0), Vector3d::UnitZ());
     const mesh::Polyhedron placed = mesh::moved(place, lump);
-    mesh_.begin_chunk(false);
+    begin(name, kind);
     mesh::add_polyhedron(placed, mesh::Shading::smooth, cover, mesh_);
     scene_.solids.push_back(mesh::solid_of(name, placed));
   }
@@ -195,8 +203,9 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   mesh::add_ground(
       {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalfM, 0.0, kRoadHalfM, half_m},
       [](const Vector2d& middle_NE) {
-        return std::abs(middle_NE.y()) < kRoadHalfM ? mesh::Cover{kAsphalt, textures::kAsphaltTileM}
-                                                    : mesh::Cover{kParkGrass, textures::kGrassTileM};
+        const bool is_road = std::abs(middle_NE.y()) < kRoadHalfM;
+        return is_road ? mesh::GroundCell{{kAsphalt, textures::kAsphaltTileM}, true}
+                       : mesh::GroundCell{{kParkGrass, textures::kGrassTileM}, false};
       },
       mesh);
 

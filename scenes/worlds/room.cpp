@@ -202,12 +202,14 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
   const Eigen::Vector2d floor_half = scene.bounds_NE_m.max() + Eigen::Vector2d::Constant(0.5 * config.wall_thickness_m);
   const Eigen::AlignedBox3d floor_W(Eigen::Vector3d(-floor_half.x(), -floor_half.y(), 0.0),
                                     Eigen::Vector3d(floor_half.x(), floor_half.y(), 0.0));
+  const uint32_t ground = mesh.begin_instance("ground", SemanticClass::ground);
   mesh.begin_chunk(false);
   mesh.add_tiled(mesh::top_panel(floor_W), textures::kRoomTileM, Eigen::Vector2d::Zero(), room.floor);
 
   static constexpr const char* kNames[] = {"north wall", "east wall", "south wall", "west wall"};
   const std::vector<Eigen::AlignedBox3d> walls = wall_boxes(config);
   for (size_t k = 0; k < walls.size(); ++k) {
+    mesh.begin_instance(kNames[k], SemanticClass::wall);
     mesh.begin_chunk(false);
     for (const mesh::TexturedPanel& face : mesh::side_panels(walls[k]))
       paper_wall(face, room.first_wall[k], random, mesh);
@@ -219,14 +221,18 @@ Scene make_room(const RoomConfig& config, uint64_t seed) {
     const Eigen::Vector3d lift(0.0, 0.0, config.height_m);
     Eigen::AlignedBox3d ceiling_W(walls[2].min(), walls[0].max() - lift);
     ceiling_W.min().z() -= config.wall_thickness_m;
+    mesh.begin_instance("ceiling", SemanticClass::ceiling);
     add_ceiling(ceiling_W, room.ceiling, mesh);
     scene.solids.push_back(mesh::solid_of("ceiling", ceiling_W));
   } else {
+    mesh.resume_instance(ground);
     add_lawn({Eigen::Vector2d(-floor_half), floor_half}, room.grass, mesh);
   }
   for (size_t k = 0; k < furniture.size(); ++k) {
+    const std::string name = "furniture " + std::to_string(k + 1);
+    mesh.begin_instance(name, SemanticClass::furniture);
     add_box(furniture[k], room.furniture[static_cast<size_t>(uniform_index(random, 2))], random, mesh);
-    scene.solids.push_back(mesh::solid_of("furniture " + std::to_string(k + 1), furniture[k]));
+    scene.solids.push_back(mesh::solid_of(name, furniture[k]));
   }
   scene.meshes.push_back(mesh.finish());
   scene.textures = std::move(room.images);

@@ -56,6 +56,7 @@ Scene make_tree(const TreeConfig& config, uint64_t seed) {
   for (int k = 0; k < kTreeLumps; ++k) lumps.push_back(mesh::convex_lump(kLumpCorners, 0.18, random));
   mesh::MeshBuilder mesh("opaque");
   mesh::add_ground(around_m, {0, textures::kGrassTileM}, mesh);
+  mesh.begin_instance("tree", SemanticClass::tree);
   mesh.begin_chunk(false);
   const mesh::TreeShape shape{.foot_W = {config.north_m, config.east_m, 0.0},
                               .height_m = config.height_m,
@@ -246,8 +247,10 @@ Scene make_forest(const ForestConfig& config, uint64_t seed) {
         .trunk_sides = detailed ? kTrunkSides : kFewTrunkSides,
         .thins_out = config.trees > kWideForest,
     };
-    std::vector<Solid> solids = mesh::add_tree("tree " + std::to_string(k + 1), shape, detailed ? lumps : coarse_lumps,
-                                               leaves, bark, random, mesh);
+    const std::string name = "tree " + std::to_string(k + 1);
+    mesh.begin_instance(name, SemanticClass::tree);
+    std::vector<Solid> solids =
+        mesh::add_tree(name, shape, detailed ? lumps : coarse_lumps, leaves, bark, random, mesh);
     std::ranges::move(solids, std::back_inserter(scene.solids));
   }
   scene.meshes.push_back(mesh.finish());

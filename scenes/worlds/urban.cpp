@@ -42,10 +42,10 @@ Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   add_city_ground(plan, city, derived_seed(seed, kGroundStream), mesh);
   for (const Building& building : plan.buildings) {
     Random random(derived_seed(derived_seed(seed, kBuildingStream), static_cast<uint64_t>(building.cell)));
+    const std::string name = "building " + std::to_string(building.cell);
+    mesh.begin_instance(name, SemanticClass::building);
     add_building(building, city, random, mesh);
-    for (const Eigen::AlignedBox3d& box_W : building.boxes_W) {
-      scene.solids.push_back(mesh::solid_of("building " + std::to_string(building.cell), box_W));
-    }
+    for (const Eigen::AlignedBox3d& box_W : building.boxes_W) scene.solids.push_back(mesh::solid_of(name, box_W));
   }
   scene.meshes.push_back(mesh.finish());
   scene.textures = std::move(city.images);

@@ -77,6 +77,7 @@ Scene make_wall(const WallConfig& written, uint64_t seed) {
   mesh::MeshBuilder mesh("opaque");
   mesh::add_ground(half_m, {0, textures::kGrassTileM}, mesh);
 
+  mesh.begin_instance("wall", SemanticClass::wall);
   const auto build = [&](double west_m, double east_m, double bottom_m, double top_m) {
     if (east_m <= west_m || top_m <= bottom_m) return;
     const Eigen::AlignedBox3d box_W(Eigen::Vector3d(config.north_m, west_m, -top_m),

@@ -77,7 +77,7 @@ void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
 }
 
 void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& render) {
-  CLI::App* const command = app.add_subcommand("render", "render the image of one camera to a PNG file");
+  CLI::App* const command = app.add_subcommand("render", "render the image of one camera to a file");
   auto* const file = command->add_option("SCENARIO", render.scenario.file, "scenario file (YAML)");
   add_layers(*command, render.scenario);
   auto* const camera = command->add_option("--camera", render.camera, "role of the camera")->type_name("NAME");
@@ -88,10 +88,13 @@ void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& 
   command
       ->add_option("--what", render.what,
                    "color, grey; depth (red 0.5 m, green 10 m, blue 200 m, sky white), depth_mm (16-bit PNG, "
-                   "millimeters, 0 beyond 65 m); flow to the camera's next image (right red, left cyan, white at "
-                   "rest, full at 16 px); labels (a color for each object, sky black)")
-      ->check(CLI::IsMember({"color", "grey", "depth", "depth_mm", "flow", "labels"}));
-  auto* const out = command->add_option("-o", render.out, "output file")->type_name("FILE.png");
+                   "millimeters, 0 beyond 65 m), depth_m (TIFF of 32-bit floats, meters, infinity: sky); flow to the "
+                   "camera's next image (right red, left cyan, white at rest, full at 16 px); labels (16-bit PNG, one "
+                   "number for each object, 0: sky), semantic (its class), both with labels.json next to the image; "
+                   "label_colors (a color for each object, sky black)")
+      ->check(CLI::IsMember(
+          {"color", "grey", "depth", "depth_mm", "depth_m", "flow", "labels", "semantic", "label_colors"}));
+  auto* const out = command->add_option("-o", render.out, "output file; FILE.tiff for depth_m")->type_name("FILE.png");
   auto* const info =
       command->add_flag("--info", render.info, "print the renderers that this machine can use, and exit");
   command->callback([&, file, camera, out, info] {
@@ -132,8 +135,11 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
       ->add_option("--camera", data.cameras,
                    "role of a camera to export; may be repeated, the first is cam0; default all cameras with images")
       ->type_name("NAME");
-  command->add_flag("--truth", data.truth,
-                    "also write ground-truth depth, labels, moving-object masks and optical flow");
+  CLI::Option* const truth = command->add_flag(
+      "--truth", data.truth, "also write ground-truth depth, labels, classes, moving-object masks and optical flow");
+  command
+      ->add_flag("--float-depth", data.float_depth, "ground-truth depth as TIFF of 32-bit floats, m, without a limit")
+      ->needs(truth);
   command->add_option("--out", data.out, "output folder, which must not exist or be empty; default RUN/<format>")
       ->type_name("DIR");
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });

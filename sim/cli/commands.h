@@ -40,7 +40,8 @@ struct RenderOptions {
   ScenarioOptions scenario;
   std::string camera;
   double time_s = 0.0;
-  std::string what = "color";  ///< "color", "grey", "depth", "depth_mm", "flow" or "labels"
+  std::string what = "color";  ///< "color", "grey", "depth", "depth_mm", "depth_m", "flow", "labels", "semantic" or
+                               ///< "label_colors"
   std::filesystem::path out;
   bool info = false;  ///< only print the renderers
 };
@@ -200,6 +201,7 @@ struct ExportOptions {
   std::filesystem::path out;         ///< empty: <folder>/<format>
   std::vector<std::string> cameras;  ///< roles; empty: all that take images
   bool truth = false;                ///< also the ground truth of each pixel
+  bool float_depth = false;          ///< ground-truth depth as floats
 };
 /// Re-simulates a run and writes its sensor readings for other programs.
 int export_run(const ExportOptions& options);

@@ -37,6 +37,7 @@ int export_run(const ExportOptions& options) {
   const std::string hash = hash_of_run(options.folder);
   const Scenario scenario = load_scenario(options.folder / "scenario.yaml");
   const ExportRequest request{format_of(options.format), options.cameras, options.truth,
+                              options.float_depth ? DepthFormat::float_m : DepthFormat::png_mm,
                               options.out.empty() ? options.folder / options.format : options.out};
   FlightProgress progress(scenario.name);
   const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {

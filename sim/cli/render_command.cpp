@@ -6,6 +6,7 @@
 #include "sim/cli/commands.h"
 #include "sim/config/whole_file.h"
 #include "sim/record/image_file.h"
+#include "sim/record/labels_file.h"
 #include "sim/render/image_colors.h"
 #include "sim/render/renderer.h"
 #include "sim/simulation/simulation.h"
@@ -16,7 +17,8 @@ namespace {
 ImageChannel channel_of(const std::string& what) {
   if (what == "grey") return ImageChannel::grey;
   if (what == "flow") return ImageChannel::flow;
-  if (what == "labels") return ImageChannel::labels;
+  if (what == "labels" || what == "label_colors") return ImageChannel::labels;
+  if (what == "semantic") return ImageChannel::semantic;
   return what == "color" ? ImageChannel::color : ImageChannel::depth;
 }
 
@@ -44,6 +46,15 @@ cv::Mat image_at(Simulation& simulation, const RenderOptions& options, ImageChan
   return simulation.image(options.camera, channel);
 }
 
+/// Returns an image in the form of its file.
+cv::Mat file_image(const std::string& what, const cv::Mat& image) {
+  if (what == "depth") return colored_depth(image);
+  if (what == "depth_mm") return depth_mm(image);
+  if (what == "flow") return colored_flow(image);
+  if (what == "label_colors") return colored_labels(image);
+  return what == "labels" || what == "semantic" ? labels_16bit(image) : image;
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -51,26 +62,24 @@ int render(const RenderOptions& options) {
     print_renderers(options.scenario.renderer);
     return 0;
   }
-  if (options.out.extension() != ".png") {
-    throw InputError(fmt::format("-o {}: the image is a PNG; its name must end in .png", options.out.string()));
+  const bool tiff = options.what == "depth_m";
+  const char* const ending = tiff ? ".tiff" : ".png";
+  if (options.out.extension() != ending) {
+    throw InputError(fmt::format("-o {}: the image is a {}; its name must end in {}", options.out.string(),
+                                 tiff ? "TIFF" : "PNG", ending));
   }
   require_writable_file(options.out);
-  const ImageChannel channel = channel_of(options.what);
   Simulation simulation(load(options.scenario));
   print_black_pixels(simulation.scenario().rig);
-  cv::Mat image = image_at(simulation, options, channel);
-  if (options.what == "depth_mm") {
-    image = depth_mm(image);
-  } else if (channel == ImageChannel::depth) {
-    image = colored_depth(image);
-  } else if (channel == ImageChannel::flow) {
-    image = colored_flow(image);
-  } else if (channel == ImageChannel::labels) {
-    image = colored_labels(image);
-  }
-  if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
-  write_png(options.out, image);
+  const cv::Mat image = file_image(options.what, image_at(simulation, options, channel_of(options.what)));
+  const std::filesystem::path folder = options.out.parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  tiff ? write_tiff(options.out, image) : write_png(options.out, image);
   fmt::print("written: {}\n", options.out.string());
+  if (options.what == "labels" || options.what == "semantic") {
+    write_file_whole(folder / "labels.json", labels_json(simulation.scene()));
+    fmt::print("written: {}\n", (folder / "labels.json").string());
+  }
   return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/export/true_images.h"
 #include "sim/flight/build.h"
 #include "sim/record/image_file.h"
+#include "sim/record/labels_file.h"
 #include "sim/scenario/rig.h"
 #include "sim/simulation/simulation.h"
 
@@ -96,7 +97,7 @@ class Recorder : public FlightWatcher {
  public:
   using Progress = std::function<void(double, double, double)>;
   Recorder(const ExportRequest& request, SensorRecord& record, const Progress& progress)
-      : request_(request), record_(record), progress_(progress) {}
+      : request_(request), record_(record), progress_(progress), true_images_(request.depth) {}
 
   bool wants_sensors() const override { return true; }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
@@ -171,7 +172,7 @@ class Recorder : public FlightWatcher {
     for (const auto& [name, image] : pending_) {
       const std::filesystem::path file = request_.out / name;
       std::filesystem::create_directories(file.parent_path());
-      write_png(file, image);
+      image.type() == CV_32FC1 ? write_tiff(file, image) : write_png(file, image);
     }
     pending_.clear();
   }
@@ -204,6 +205,7 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
     std::filesystem::create_directories((request.out / file.name).parent_path());
     write_file_whole(request.out / file.name, file.text);
   }
+  if (request.truth) write_file_whole(request.out / "truth/labels.json", labels_json(*flight.scene));
   const nlohmann::ordered_json origin{{"scenario", scenario.name},
                                       {"seed", scenario.seed},
                                       {"version", std::string(version())},

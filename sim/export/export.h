@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/export/true_images.h"
 #include "sim/flight/flight.h"
 #include "sim/scenario/scenario.h"
 
@@ -16,9 +17,10 @@ enum class DataFormat { euroc, tum, kitti };
 struct ExportRequest {
   DataFormat format = DataFormat::euroc;
   std::vector<std::string>
-      cameras;                ///< roles in the order of cam0, cam1 ...; empty: all cameras of the rig with images
-  bool truth = false;         ///< whether to write TrueImages
-  std::filesystem::path out;  ///< a folder that does not exist or is empty
+      cameras;         ///< roles in the order of cam0, cam1 ...; empty: all cameras of the rig with images
+  bool truth = false;  ///< whether to write TrueImages and labels.json
+  DepthFormat depth = DepthFormat::png_mm;  ///< of TrueImages
+  std::filesystem::path out;                ///< a folder that does not exist or is empty
 };
 
 /// Re-simulates a scenario and writes the readings of all sensors at their full rates, with their imperfections, and

@@ -3,27 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "sim/record/image_file.h"
 
 namespace hedgehop::sim {
 namespace {
-
-constexpr double kMaxLabel = std::numeric_limits<uint16_t>::max();
-
-cv::Mat small_labels(const cv::Mat& labels) {
-  double max_label = 0.0;
-  cv::minMaxLoc(labels, nullptr, &max_label);
-  if (max_label > kMaxLabel) {
-    throw std::runtime_error(
-        fmt::format("the scene has {:.0f} labels; maximum of 16 bit: {:.0f}", max_label, kMaxLabel));
-  }
-  cv::Mat small;
-  labels.convertTo(small, CV_16UC1);
-  return small;
-}
 
 cv::Mat kitti_flow(const cv::Mat& flow_px) {
   constexpr float kUnitsPerPixel = 64.0f, kZero = 32768.0f;
@@ -46,9 +30,15 @@ std::vector<ImageFile> TrueImages::images(size_t camera, const std::string& role
                                           const std::string& stem) {
   const std::filesystem::path folder = std::filesystem::path("truth") / fmt::format("cam{}", camera);
   const auto file = [&](const char* kind, const std::string& name) { return folder / kind / (name + ".png"); };
-  std::vector<ImageFile> images{{file("depth", stem), depth_mm(tick.depth(role))},
-                                {file("labels", stem), small_labels(tick.labels(role))},
+  std::vector<ImageFile> images{{file("labels", stem), labels_16bit(tick.labels(role))},
+                                {file("semantic", stem), labels_16bit(tick.semantic(role))},
                                 {file("moving", stem), tick.moving(role)}};
+  const cv::Mat depth_m = tick.depth(role);
+  if (depth_ == DepthFormat::float_m) {
+    images.push_back({folder / "depth" / (stem + ".tiff"), depth_m});
+  } else {
+    images.push_back({file("depth", stem), depth_mm(depth_m)});
+  }
   std::string& last = last_stem_[camera];
   if (!last.empty()) images.push_back({file("flow", last), kitti_flow(tick.flow_to_here(role))});
   last = stem;

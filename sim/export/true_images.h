@@ -17,12 +17,20 @@ struct ImageFile {
   cv::Mat image;
 };
 
-/// The ground-truth images of a data set, in `truth/cam0..`: `depth/` (16 bit, mm; 0: unknown or more than 65.5 m),
-/// `labels/` (16 bit, as ImageChannel::labels), `moving/` (255 on moving obstacles) and `flow/` (to the next image of
-/// the camera; 16 bit, red 64 u + 32768, green 64 v + 32768, blue 1 if known, as in KITTI [MenzeGeiger2015] sec. 4). A
-/// file has the name of its image. The last image has no flow.
+/// Files of true depth.
+enum class DepthFormat {
+  png_mm,   ///< 16 bit, mm; 0: unknown, sky, or more than 65.5 m
+  float_m,  ///< TIFF of 32-bit floats, m; infinity: sky, NaN: unknown
+};
+
+/// The ground-truth images of a data set, in `truth/cam0..`: `depth/`, `labels/` and `semantic/` (16 bit, as
+/// ImageChannel), `moving/` (255 on moving obstacles) and `flow/` (to the next image of the camera; 16 bit, red
+/// 64 u + 32768, green 64 v + 32768, blue 1 if known, as in KITTI [MenzeGeiger2015] sec. 4). A file has the name of its
+/// image. The last image has no flow.
 class TrueImages {
  public:
+  explicit TrueImages(DepthFormat depth) : depth_(depth) {}
+
   /// Returns the ground truth of an image, and the flow of the camera's image before. @param camera  number of the
   /// camera.
   /// @param stem  of the file of the image. Throws std::runtime_error for more than 65,535 labels.
@@ -30,6 +38,7 @@ class TrueImages {
                                 const std::string& stem);
 
  private:
+  DepthFormat depth_;
   std::map<size_t, std::string> last_stem_;  ///< of each camera
 };
 

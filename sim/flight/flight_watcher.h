@@ -23,8 +23,8 @@ struct SensorTick {
   std::span<const avoidance::CameraFrame> frames;
   /// Returns the view of a camera on this tick as ImageChannel::depth, without imperfections.
   std::function<cv::Mat(std::string_view role)> depth;
-  /// `labels` returns ImageChannel::labels; `moving` returns 255 for pixels of moving obstacles, otherwise 0.
-  std::function<cv::Mat(std::string_view role)> labels, moving;
+  /// As ImageChannel::labels and semantic; `moving` returns 255 for pixels of moving obstacles, otherwise 0.
+  std::function<cv::Mat(std::string_view role)> labels, semantic, moving;
   /// Returns ImageChannel::flow from the camera's last image that was not lost to this tick. Throws std::logic_error
   /// for the first image.
   std::function<cv::Mat(std::string_view role)> flow_to_here;

@@ -46,9 +46,11 @@ std::optional<CornerDetector> detector_of(const CameraConfig& camera, const scen
 
 Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& scene, Renderer& renderer,
                  uint64_t seed, std::span<const FailureConfig> failures)
-    : ticks_(ticks), renderer_(renderer), failures_(failures.begin(), failures.end()) {
+    : ticks_(ticks),
+      renderer_(renderer),
+      first_mover_label_(scenes::first_mover_label(scene)),
+      failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
-  for (const scenes::Mesh& mesh : scene.meshes) first_mover_label_ += static_cast<int>(mesh.chunks.size());
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
     const CameraConfig& camera = rig.cameras[i];
     const std::string path = fmt::format("rig.cameras.{}", i);

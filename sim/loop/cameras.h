@@ -100,7 +100,7 @@ class Cameras {
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
   std::vector<scenes::Motion> movers_;
-  int first_mover_label_ = 1;
+  int first_mover_label_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;
   std::vector<FailureConfig> failures_;

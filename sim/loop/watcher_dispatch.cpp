@@ -36,7 +36,8 @@ void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
     return cameras_.image(camera, ImageChannel::flow, *exposed_[camera], now);
   };
   watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames,
-                        image_of(ImageChannel::depth), image_of(ImageChannel::labels), moving, flow_to_here});
+                        image_of(ImageChannel::depth), image_of(ImageChannel::labels), image_of(ImageChannel::semantic),
+                        moving, flow_to_here});
   for (const size_t camera : exposing) exposed_[camera] = now;
 }
 

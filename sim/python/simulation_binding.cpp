@@ -2,17 +2,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <array>
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "sim/flight/build.h"
 #include "sim/python/bindings.h"
 #include "sim/record/flight_columns.h"
+#include "sim/record/labels_file.h"
 #include "sim/record/result_files.h"
 #include "sim/simulation/simulation.h"
 
@@ -23,13 +24,14 @@ using namespace py::literals;
 namespace {
 
 sim::ImageChannel to_channel(const std::string& name) {
-  constexpr std::array<std::string_view, 4> kNames = {"grey", "color", "depth", "labels"};
-  for (size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<sim::ImageChannel>(i);
+  using enum sim::ImageChannel;
+  static constexpr std::pair<std::string_view, sim::ImageChannel> kChannels[] = {
+      {"grey", grey}, {"color", color}, {"depth", depth}, {"labels", labels}, {"semantic", semantic}};
+  for (const auto& [known, channel] : kChannels) {
+    if (known == name) return channel;
   }
-  throw std::invalid_argument("channel '" + name + "'; allowed: grey, color, depth, labels");
+  throw std::invalid_argument("channel '" + name + "'; allowed: grey, color, depth, labels, semantic");
 }
-static_assert(static_cast<int>(sim::ImageChannel::labels) == 3);
 
 /// @param quaternion  of the body to the world, w x y z.
 sim::ChosenPose chosen_pose(const Eigen::Vector3d& position_m, const Eigen::Vector4d& quaternion, double t_s) {
@@ -228,6 +230,7 @@ void bind_simulation(py::module_& native) {
                                                 chosen_pose(to.first, to.second, to_s)));
           },
           "role"_a, "start"_a, "end"_a, "start_s"_a = 0.0, "end_s"_a = 0.0)
+      .def("labels_json", [](PySimulation& s) { return sim::labels_json(s.get().scene()); })
       .def("over", [](PySimulation& s) { return s.get().over(); })
       .def("decides", [](PySimulation& s) { return s.get().decides(); })
       .def("t_s", [](PySimulation& s) { return s.get().t_s(); })

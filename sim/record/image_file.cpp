@@ -1,10 +1,14 @@
 #include "sim/record/image_file.h"
 
+#include <fmt/format.h>
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -46,7 +50,65 @@ std::string png_of(const cv::Mat& image) {
   return bytes;
 }
 
+/// Returns a TIFF with one directory of fields and all rows in one strip.
+std::string tiff_of(const cv::Mat& image) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string bytes = "II";
+  const auto put = [&bytes](auto number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
+  enum Type : uint16_t { kShort = 3, kLong = 4 };
+  struct TiffField {
+    uint16_t tag;
+    Type type;
+    uint32_t value;
+  };
+  constexpr uint32_t kDirectoryAt = 8, kRowsAt = 136;
+  const auto rows = static_cast<uint32_t>(image.rows), cols = static_cast<uint32_t>(image.cols);
+  const TiffField fields[] = {
+      {256, kLong, cols},             // width
+      {257, kLong, rows},             // height
+      {258, kShort, 32},              // bits per sample
+      {259, kShort, 1},               // no compression
+      {262, kShort, 1},               // grey, 0 is black
+      {273, kLong, kRowsAt},          // offset of the strip
+      {277, kShort, 1},               // samples per pixel
+      {278, kLong, rows},             // rows per strip
+      {279, kLong, 4 * rows * cols},  // bytes of the strip
+      {339, kShort, 3},               // samples are floats
+  };
+  put(uint16_t{42});
+  put(kDirectoryAt);
+  put(static_cast<uint16_t>(std::size(fields)));
+  for (const TiffField& field : fields) {
+    put(field.tag);
+    put(static_cast<uint16_t>(field.type));
+    put(uint32_t{1});
+    put(field.value);
+  }
+  put(uint32_t{0});  // no further directory
+  bytes.resize(kRowsAt);
+  for (int row = 0; row < image.rows; ++row) bytes.append(image.ptr<char>(row), 4 * cols);
+  return bytes;
+}
+
 }  // namespace
+
+void write_tiff(const std::filesystem::path& file, const cv::Mat& image) {
+  if (image.type() != CV_32FC1) throw std::invalid_argument(file.string() + ": a TIFF must have one channel of floats");
+  write_file_whole(file, tiff_of(image));
+}
+
+cv::Mat labels_16bit(const cv::Mat& labels) {
+  double max_label = 0.0;
+  cv::minMaxLoc(labels, nullptr, &max_label);
+  constexpr double kMaxLabel = std::numeric_limits<uint16_t>::max();
+  if (max_label > kMaxLabel) {
+    throw std::runtime_error(
+        fmt::format("the image shows label {:.0f}; maximum of 16 bit: {:.0f}", max_label, kMaxLabel));
+  }
+  cv::Mat small;
+  labels.convertTo(small, CV_16UC1);
+  return small;
+}
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {
   if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC3) {

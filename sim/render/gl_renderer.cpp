@@ -54,8 +54,7 @@ GlRenderer::GlRenderer(const scenes::Scene& scene, Culling culling, RendererKind
       labels_(label_program(gl_)),
       skies_(sky_program(gl_)),
       counts_(max_stretches(geometry_)),
-      offsets_(counts_.size()),
-      stretch_labels_(counts_.size()) {
+      offsets_(counts_.size()) {
   upload_meshes(gl_, geometry_);
   geometry_.vertices = {};
   geometry_.indices = {};
@@ -82,7 +81,7 @@ void GlRenderer::render(const vision::camera::PinholeCamera& camera, const Viewp
   switch (raster) {
     case Raster::grey:
     case Raster::color:
-      draw_scene(camera, view, raster == Raster::grey ? greys_ : colors_, false);
+      draw_scene(camera, view, raster == Raster::grey ? greys_ : colors_);
       draw_sky(camera, view.X_WC, raster == Raster::grey);
       break;
     case Raster::depth:
@@ -90,13 +89,13 @@ void GlRenderer::render(const vision::camera::PinholeCamera& camera, const Viewp
       const bool depth = raster == Raster::depth;
       const float sky = depth ? std::numeric_limits<float>::infinity() : 0.0f;
       gl_.ClearBufferfv(GL_COLOR, 0, Eigen::Vector4f::Constant(sky).eval().data());
-      draw_scene(camera, view, depth ? depths_ : planes_, false);
+      draw_scene(camera, view, depth ? depths_ : planes_);
       break;
     }
     case Raster::labels: {
       const Eigen::Vector4i sky = Eigen::Vector4i::Zero();
       gl_.ClearBufferiv(GL_COLOR, 0, sky.data());
-      draw_scene(camera, view, labels_, true);
+      draw_scene(camera, view, labels_);
       break;
     }
   }
@@ -135,8 +134,8 @@ void GlRenderer::set_camera_position(const Program& program, const Eigen::Isomet
   if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
 }
 
-void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, const Program& program,
-                            bool labeled) {
+void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view,
+                            const Program& program) {
   const Eigen::Matrix3f R_CW = view.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
   set_camera_position(program, view.X_WC, Eigen::Vector3d::Zero());
@@ -147,14 +146,13 @@ void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const V
   for (const scenes::Chunk& chunk : visible_.find(camera, view.X_WC, culling_)) {
     counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
     offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-    if (labeled) stretch_labels_[stretches_] = label_of(chunk);
     ++stretches_;
   }
-  draw_stretches(program, labeled);
-  draw_movers(view, program, labeled);
+  draw_stretches();
+  draw_movers(view, program);
 }
 
-void GlRenderer::draw_movers(const Viewpoint& view, const Program& program, bool labeled) {
+void GlRenderer::draw_movers(const Viewpoint& view, const Program& program) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
     const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], view.t_s);
     stretches_ = 0;
@@ -166,32 +164,19 @@ void GlRenderer::draw_movers(const Viewpoint& view, const Program& program, bool
       if (chunk.index_count == 0 || !visible_.shows(box_W)) continue;
       counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
       offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
-      stretch_labels_[stretches_] = static_cast<int>(1 + geometry_.chunks.size() + mover);
       ++stretches_;
     }
     if (stretches_ == 0) continue;
     set_camera_position(program, view.X_WC, p_WM);
-    draw_stretches(program, labeled);
+    draw_stretches();
   }
 }
 
-void GlRenderer::draw_stretches(const Program& program, bool labeled) {
-  for (size_t i = 0; i < stretches_; ++i) {
-    count_.triangles += static_cast<size_t>(counts_[i]) / 3;
-    if (!labeled) continue;
-    gl_.Uniform1i(program.label, stretch_labels_[i]);
-    gl_.DrawElements(GL_TRIANGLES, counts_[i], GL_UNSIGNED_INT, offsets_[i]);
-  }
+void GlRenderer::draw_stretches() {
+  for (size_t i = 0; i < stretches_; ++i) count_.triangles += static_cast<size_t>(counts_[i]) / 3;
   count_.stretches += stretches_;
-  if (labeled) return;
   gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
                         static_cast<GLsizei>(stretches_));
-}
-
-/// Chunks are in the order of first_index. A stretch is a chunk or a part of one.
-int GlRenderer::label_of(const scenes::Chunk& stretch) const {
-  const auto after = std::ranges::upper_bound(geometry_.chunks, stretch.first_index, {}, &scenes::Chunk::first_index);
-  return static_cast<int>(after - geometry_.chunks.begin());
 }
 
 void GlRenderer::draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey) {

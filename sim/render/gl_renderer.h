@@ -31,14 +31,12 @@ class GlRenderer : public PinholeRenderer {
   std::string info() override;
 
  private:
-  void draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, const Program& program,
-                  bool labeled);
+  void draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, const Program& program);
   void set_sunlight(const Eigen::Matrix4f& sun_from_W, float ambient);
-  void draw_movers(const Viewpoint& view, const Program& program, bool labeled);
+  void draw_movers(const Viewpoint& view, const Program& program);
   void draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
   void set_camera_position(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM);
-  void draw_stretches(const Program& program, bool labeled);
-  int label_of(const scenes::Chunk& stretch) const;
+  void draw_stretches();
 
   std::unique_ptr<GlContext> context_;
   const GlFunctions& gl_ = context_->gl();
@@ -52,7 +50,6 @@ class GlRenderer : public PinholeRenderer {
   RenderTargets targets_;
   std::vector<GLsizei> counts_;  ///< of the stretches of the next call
   std::vector<const void*> offsets_;
-  std::vector<int> stretch_labels_;
   size_t stretches_ = 0;
 };
 

@@ -54,6 +54,7 @@ void upload_meshes(const GlFunctions& gl, const SceneGeometry& geometry) {
   };
   attribute(kPositionAttribute, 3, offsetof(DrawnVertex, p_W));
   attribute(kSurfaceAttribute, 4, offsetof(DrawnVertex, uv));
+  attribute(kLabelAttribute, 1, offsetof(DrawnVertex, label));
   check_gl(gl, "copying the meshes to the context");
 }
 

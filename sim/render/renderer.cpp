@@ -15,7 +15,8 @@ namespace hedgehop::sim {
 
 namespace {
 
-/// Returns the raster of an undistorted pinhole image. Flow has none: it is computed from depth and labels.
+/// Returns the raster of an undistorted pinhole image. Flow and classes have none: they are computed from depth and
+/// labels.
 Raster raster_of(ImageChannel channel) {
   switch (channel) {
     case ImageChannel::grey:
@@ -27,15 +28,17 @@ Raster raster_of(ImageChannel channel) {
     case ImageChannel::labels:
       return Raster::labels;
     case ImageChannel::flow:
+    case ImageChannel::semantic:
       break;
   }
   throw std::invalid_argument("unknown channel");
 }
 
-size_t chunk_count(const scenes::Scene& scene) {
-  size_t count = 0;
-  for (const scenes::Mesh& mesh : scene.meshes) count += mesh.chunks.size();
-  return count;
+/// Returns the class of each label, as ImageChannel::semantic.
+std::vector<int> classes_of_labels(const scenes::Scene& scene) {
+  std::vector<int> classes{0};
+  for (const scenes::Instance& instance : scenes::instances(scene)) classes.push_back(scenes::class_id(instance.kind));
+  return classes;
 }
 
 }  // namespace
@@ -44,7 +47,8 @@ class Renderer::Impl {
  public:
   Impl(const scenes::Scene& scene, Culling culling, RendererKind kind, Shadows shadows)
       : pinholes_(make_pinhole_renderer(scene, culling, kind, shadows)),
-        first_mover_label_(static_cast<int>(1 + chunk_count(scene))),
+        first_mover_label_(scenes::first_mover_label(scene)),
+        classes_(classes_of_labels(scene)),
         sky_(scene.sky) {
     for (const scenes::Mover& mover : scene.movers) motions_.push_back(mover.motion);
   }
@@ -54,6 +58,10 @@ class Renderer::Impl {
     pinholes_->start_count();
     if (view.channel == ImageChannel::flow) {
       draw_flow(view, out);
+    } else if (view.channel == ImageChannel::semantic) {
+      draw(view, ImageChannel::labels, out);
+      for (auto label = out.begin<int>(); label != out.end<int>(); ++label)
+        *label = classes_[static_cast<size_t>(*label)];
     } else {
       draw(view, view.channel, out);
       if (std::isfinite(sky_.visibility_m)) add_haze(view, out);
@@ -157,6 +165,7 @@ class Renderer::Impl {
 
   std::unique_ptr<PinholeRenderer> pinholes_;
   int first_mover_label_;
+  std::vector<int> classes_;             ///< of each label
   std::vector<scenes::Motion> motions_;  ///< of the movers
   std::deque<Lens> lenses_;
   scenes::Sky sky_;

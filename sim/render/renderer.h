@@ -18,10 +18,10 @@ enum class ImageChannel {
   color,   ///< CV_8UC3, RGB
   depth,   ///< CV_32FC1, m: z in C of a pinhole lens, distorted or not; distance along the ray of other lenses,
            ///< because their rays may have z <= 0; +infinity for the sky
-  labels,  ///< CV_32SC1: 0 for the sky; 1 + i for chunk i, counted through all meshes of the scene in order; then one
-           ///< label for each moving obstacle, in order
+  labels,  ///< CV_32SC1: 0 for the sky, 1 + i for element i of scenes::instances()
   flow,    ///< CV_32FC2: displacement of the point of each pixel until CameraView::next, right and down, px; sky is at
            ///< infinity
+  semantic,  ///< CV_32SC1: 0 for the sky, otherwise scenes::class_id() of the instance
 };
 
 /// One image to render. C: x right, y down, z forward; pixel (0, 0) is the center of the top-left pixel.

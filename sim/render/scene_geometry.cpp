@@ -24,6 +24,8 @@ void check(const scenes::Mesh& mesh, size_t texture_count) {
     require(vertex.p_W.allFinite() && vertex.n_W.allFinite() && vertex.uv.allFinite(), "a vertex is not finite");
     require(vertex.texture < texture_count,
             fmt::format("a vertex uses texture {}; the scene has {}", vertex.texture, texture_count));
+    require(vertex.instance < mesh.instances.size(),
+            fmt::format("a vertex belongs to instance {}; its mesh has {}", vertex.instance, mesh.instances.size()));
   }
   size_t covered = 0;
   for (const scenes::Chunk& chunk : mesh.chunks) {
@@ -41,7 +43,10 @@ void check(const scenes::Mesh& mesh, size_t texture_count) {
 
 void check(const scenes::Scene& scene) {
   for (const scenes::Mesh& mesh : scene.meshes) check(mesh, scene.textures.size());
-  for (const scenes::Mover& mover : scene.movers) check(mover.mesh, scene.textures.size());
+  for (const scenes::Mover& mover : scene.movers) {
+    check(mover.mesh, scene.textures.size());
+    require(mover.mesh.instances.size() == 1, fmt::format("mover '{}' is not one instance", mover.name));
+  }
 }
 
 float brightness(const scenes::Lights& lights, const Eigen::Vector3f& n_W) {
@@ -64,15 +69,19 @@ void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<DrawnVertex>& 
   }
 }
 
-/// Appends a mesh and returns its chunks with indices into the shared list.
-std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, SceneGeometry& geometry) {
+/// Appends a mesh and returns its chunks with indices into the shared list. @param label  of its first instance; set to
+/// that of the next mesh.
+std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, size_t& label,
+                                  SceneGeometry& geometry) {
   const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
   for (const scenes::Vertex& v : mesh.vertices) {
     geometry.vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
                                  {v.uv.x(), v.uv.y()},
                                  brightness(lights, v.n_W),
-                                 static_cast<float>(v.texture)});
+                                 static_cast<float>(v.texture),
+                                 static_cast<float>(label + v.instance)});
   }
+  label += mesh.instances.size();
   const auto append_stretch = [&](const std::vector<uint32_t>& indices, uint32_t& first, uint32_t count) {
     const auto moved_to = static_cast<uint32_t>(geometry.indices.size());
     for (uint32_t i = first; i < first + count; ++i) geometry.indices.push_back(first_vertex + indices[i]);
@@ -91,14 +100,15 @@ std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights
 SceneGeometry make_geometry(const scenes::Scene& scene) {
   check(scene);
   SceneGeometry geometry;
+  size_t label = 1;
   for (const scenes::Mesh& mesh : scene.meshes) {
-    for (const scenes::Chunk& chunk : append(mesh, scene.lights, geometry)) {
+    for (const scenes::Chunk& chunk : append(mesh, scene.lights, label, geometry)) {
       geometry.chunks.push_back(chunk);
       if (lies_flat(chunk)) cut_into_tiles(chunk, geometry.vertices, geometry.indices, geometry.tiles);
     }
   }
   for (const scenes::Mover& mover : scene.movers) {
-    geometry.mover_chunks.push_back(append(mover.mesh, scene.lights, geometry));
+    geometry.mover_chunks.push_back(append(mover.mesh, scene.lights, label, geometry));
   }
   return geometry;
 }

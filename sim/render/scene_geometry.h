@@ -14,6 +14,7 @@ struct DrawnVertex {
   std::array<float, 2> uv;
   float brightness;  ///< share of albedo
   float layer;       ///< index into Scene::textures
+  float label;       ///< as ImageChannel::labels; a float, because vertex attributes are floats
 };
 
 /// The triangles of a scene. All meshes, including those of moving obstacles, share one list of vertices and one of

@@ -20,6 +20,10 @@ layout(location = 1) in vec4 surface;
 uniform vec3 camera_W, camera_low_C;
 uniform mat3 rotation;
 uniform vec4 lens;
+#ifdef LABELS
+layout(location = 2) in float label;
+flat out float label_of_face;
+#endif
 out vec3 coordinates;  // u, v, brightness
 flat out float layer;
 #ifdef SHADOWS
@@ -32,6 +36,9 @@ void main() {
   gl_Position = vec4(lens.xy * p_C.xy + lens.zw * p_C.z, near, p_C.z);
   coordinates = surface.xyz;
   layer = surface.w;
+#ifdef LABELS
+  label_of_face = label;
+#endif
 #ifdef SHADOWS
   p_map = (sun_from_W * vec4(p_W + p_WM, 1.0)).xyz;
 #endif
@@ -73,9 +80,9 @@ constexpr const char* kPlaneFragment = R"(out vec4 plane;
 void main() { plane = vec4(gl_FragCoord.w, dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w), 0.0); }
 )";
 
-constexpr const char* kLabelFragment = R"(uniform int label;
+constexpr const char* kLabelFragment = R"(flat in float label_of_face;
 out int pixel;
-void main() { pixel = label; }
+void main() { pixel = int(label_of_face); }
 )";
 
 constexpr const char* kSunMapVertex = R"(layout(location = 0) in vec3 p_W;
@@ -146,7 +153,6 @@ Program link(const GlFunctions& gl, const std::string& vertex_source, const std:
   program.lens = gl.GetUniformLocation(program.id, "lens");
   program.horizon = gl.GetUniformLocation(program.id, "horizon");
   program.zenith = gl.GetUniformLocation(program.id, "zenith");
-  program.label = gl.GetUniformLocation(program.id, "label");
   program.p_WM = gl.GetUniformLocation(program.id, "p_WM");
   program.sun_from_W = gl.GetUniformLocation(program.id, "sun_from_W");
   program.ambient = gl.GetUniformLocation(program.id, "ambient");
@@ -165,7 +171,9 @@ Program color_program(const GlFunctions& gl, Shadows shadows) { return lit_progr
 Program grey_program(const GlFunctions& gl, Shadows shadows) { return lit_program(gl, kGreyFragment, shadows); }
 Program depth_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kDepthFragment); }
 Program plane_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kPlaneFragment); }
-Program label_program(const GlFunctions& gl) { return link(gl, kSceneVertex, kLabelFragment); }
+Program label_program(const GlFunctions& gl) {
+  return link(gl, std::string("#define LABELS\n") + kSceneVertex, kLabelFragment);
+}
 Program sun_map_program(const GlFunctions& gl) { return link(gl, kSunMapVertex, kNoFragment); }
 Program sky_program(const GlFunctions& gl) { return link(gl, kSkyVertex, kSkyFragment); }
 

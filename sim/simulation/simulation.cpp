@@ -108,6 +108,7 @@ class Simulation::Impl {
 
   Episode& episode() { return *episode_; }
   const Scenario& scenario() const { return scenario_; }
+  const scenes::Scene& scene() const { return *environment_->scene; }
 
  private:
   void begin(FlightParts parts) {
@@ -168,6 +169,7 @@ bool Simulation::over() const { return impl_->episode().over(); }
 bool Simulation::decides() const { return impl_->episode().decides(); }
 double Simulation::t_s() const { return impl_->episode().t_s(); }
 const Scenario& Simulation::scenario() const { return impl_->scenario(); }
+const scenes::Scene& Simulation::scene() const { return impl_->scene(); }
 
 avoidance::Observation Simulation::seen() const { return impl_->episode().observation(); }
 

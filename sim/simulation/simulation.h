@@ -78,6 +78,7 @@ class Simulation {
   bool decides() const;
   double t_s() const;  ///< from the start
   const Scenario& scenario() const;
+  const scenes::Scene& scene() const;
 
   /// Returns the module's input: the frames of its cameras if a decision is due, its navigation, its goal. The images
   /// are valid until the next step.

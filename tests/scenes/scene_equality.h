@@ -12,7 +12,8 @@ inline bool identical(const Mesh& p, const Mesh& q) {
     return false;
   for (size_t i = 0; i < p.vertices.size(); ++i) {
     const Vertex &v = p.vertices[i], &w = q.vertices[i];
-    if (v.p_W != w.p_W || v.n_W != w.n_W || v.uv != w.uv || v.texture != w.texture) return false;
+    if (v.p_W != w.p_W || v.n_W != w.n_W || v.uv != w.uv || v.texture != w.texture || v.instance != w.instance)
+      return false;
   }
   return true;
 }

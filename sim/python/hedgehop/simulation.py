@@ -110,7 +110,8 @@ class Simulation:
         return {role: self._native.camera(role) for role in self._native.roles()}
 
     def image(self, role: str, channel: str = "grey") -> np.ndarray:
-        """Returns the current image of a camera as grey, color, depth or labels, with its imperfections."""
+        """Returns the current image of a camera as grey, color, depth, labels or semantic, with its
+        imperfections."""
         return self._native.image(role, channel)
 
     def flow_to_next_image(self, role: str) -> np.ndarray:
@@ -126,6 +127,12 @@ class Simulation:
         """Returns the true optic flow of a camera between two chosen poses, px. A pose is (position, quaternion), as in
         image_from()."""
         return self._native.flow_between(role, start, end, start_s, end_s)
+
+    @property
+    def labels(self) -> dict:
+        """The contents of labels.json: `classes` (value by name) and `instances` (dicts of id, name, class) of the images of
+        labels and classes."""
+        return json.loads(self._native.labels_json())
 
     def checks_so_far(self) -> "list[dict]":
         """Returns the results of the checks if the flight ended now: dicts of name, passed, value, limit, unit."""

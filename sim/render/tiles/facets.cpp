@@ -78,7 +78,7 @@ bool is_facet(const CornerList& corners) {
 
 /// Returns the corners of two triangles that share an edge and form one facet; none otherwise.
 std::optional<CornerList> merged(const Triangle& a, const Triangle& b) {
-  if (a[0]->layer != b[0]->layer) return std::nullopt;
+  if (a[0]->layer != b[0]->layer || a[0]->label != b[0]->label) return std::nullopt;
   for (size_t i = 0; i < 3; ++i) {
     const DrawnVertex &from = *a[i], &to = *a[(i + 1) % 3];
     for (size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,7 @@ std::optional<CornerList> merged(const Triangle& a, const Triangle& b) {
   return std::nullopt;
 }
 
-void add(const CornerList& corners, int32_t label, Facets& facets) {
+void add(const CornerList& corners, Facets& facets) {
   const Triangle half{corners[0], corners[1], corners[2]};
   const TrianglePlane plane(half);
   if (!plane.has_area()) return;
@@ -114,13 +114,13 @@ void add(const CornerList& corners, int32_t label, Facets& facets) {
     ++number;
   }
   cover.texture = static_cast<uint32_t>(corners[0]->layer);
-  cover.label = label;
+  cover.label = static_cast<int32_t>(corners[0]->label);
   cover.evenly_lit =
       brightness(*corners[0]) == brightness(*corners[1]) && brightness(*corners[0]) == brightness(*corners[2]);
 }
 
 void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t index_count, bool in_pairs,
-                 int32_t label, Facets& facets) {
+                 Facets& facets) {
   const auto triangle = [&](uint32_t index) -> Triangle {
     const auto corner = [&](uint32_t i) { return &geometry.vertices[geometry.indices[index + i]]; };
     return {corner(0), corner(1), corner(2)};
@@ -131,11 +131,11 @@ void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t i
     facets.of_triangle[index / 3] = static_cast<uint32_t>(facets.shapes.size());
     const bool may_pair = index + 3 < end && (!in_pairs || (index - first_index) % 6 == 0);
     if (const auto both = may_pair ? merged(a, triangle(index + 3)) : std::nullopt) {
-      add(*both, label, facets);
+      add(*both, facets);
       index += 3;
       facets.of_triangle[index / 3] = static_cast<uint32_t>(facets.shapes.size());
     } else {
-      add({a[0], a[1], a[2], a[2]}, label, facets);
+      add({a[0], a[1], a[2], a[2]}, facets);
     }
   }
 }
@@ -145,15 +145,13 @@ void add_stretch(const SceneGeometry& geometry, uint32_t first_index, uint32_t i
 Facets make_facets(const SceneGeometry& geometry) {
   Facets facets;
   facets.of_triangle.assign(geometry.indices.size() / 3 + 1, 0);
-  const auto add_chunk = [&](const scenes::Chunk& chunk, int32_t label) {
-    add_stretch(geometry, chunk.first_index, chunk.index_count, lies_flat(chunk), label, facets);
-    add_stretch(geometry, chunk.far.first_index, chunk.far.index_count, false, label, facets);
+  const auto add_chunk = [&](const scenes::Chunk& chunk) {
+    add_stretch(geometry, chunk.first_index, chunk.index_count, lies_flat(chunk), facets);
+    add_stretch(geometry, chunk.far.first_index, chunk.far.index_count, false, facets);
   };
-  int32_t label = 0;
-  for (const scenes::Chunk& chunk : geometry.chunks) add_chunk(chunk, ++label);
+  for (const scenes::Chunk& chunk : geometry.chunks) add_chunk(chunk);
   for (const std::vector<scenes::Chunk>& mover : geometry.mover_chunks) {
-    ++label;
-    for (const scenes::Chunk& chunk : mover) add_chunk(chunk, label);
+    for (const scenes::Chunk& chunk : mover) add_chunk(chunk);
   }
   facets.of_triangle.back() = static_cast<uint32_t>(facets.shapes.size());
   constexpr size_t kReadableElements = 7;  // see FacetPlanes

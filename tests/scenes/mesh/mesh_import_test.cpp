@@ -58,6 +58,8 @@ TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   const std::string file = write("quad.obj", kQuad);
   write("quad.mtl", "newmtl paint\nKd 1 0 0\n");
   const Scene scene = imported({.file = file,
+                                .name = "sheet",
+                                .kind = SemanticClass::wall,
                                 .north_m = 10.0,
                                 .east_m = 20.0,
                                 .altitude_m = 1.0,
@@ -66,6 +68,9 @@ TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   // Heading east: the model's front (-z) is east, its right (x) is south.
   const Mesh& mesh = scene.meshes.at(0);
   ASSERT_EQ(mesh.indices.size(), 12u);  // both sides of two triangles
+  ASSERT_EQ(mesh.instances.size(), 1u);
+  EXPECT_EQ(mesh.instances[0].name, "sheet");
+  EXPECT_EQ(mesh.instances[0].kind, SemanticClass::wall);
   Eigen::AlignedBox3f box;
   for (const Vertex& vertex : mesh.vertices) {
     box.extend(vertex.p_W);

@@ -3,6 +3,7 @@
     truth_test.py PROGRAM SOURCE_FOLDER
 """
 
+import json
 import pathlib
 import sys
 import tempfile
@@ -29,6 +30,12 @@ class Truth(unittest.TestCase):
         assert flown.returncode in (0, 1), flown.stdout + flown.stderr
         done = hedgehop("export", folder / "run", "--format", "euroc", "--camera", "down", "--truth")
         assert done.returncode == 0, done.stderr
+        done = hedgehop("export", folder / "run", "--format", "euroc", "--camera", "left", "--truth", "--float-depth",
+                        "--out", folder / "far")
+        assert done.returncode == 0, done.stderr
+        cls.folder = folder
+        cls.far = Euroc(folder / "far")
+        cls.table = json.loads((folder / "far/truth/labels.json").read_text())
         cls.data = Euroc(folder / "run/euroc")
         cls.root = folder / "run/euroc/truth/cam0"
         cls.times = sorted(cls.data.images("cam0"))
@@ -41,7 +48,7 @@ class Truth(unittest.TestCase):
         return cv2.imread(str(self.root / what / f"{START_NS + t_ns}.png"), cv2.IMREAD_UNCHANGED)
 
     def test_every_image_has_its_truth(self):
-        for what in ("depth", "labels", "moving", "flow"):
+        for what in ("depth", "labels", "semantic", "moving", "flow"):
             names = sorted(int(file.stem) - START_NS for file in (self.root / what).iterdir())
             self.assertEqual(names, self.times[:-1] if what == "flow" else self.times)
         self.assertEqual(self.read("depth", self.times[0]).dtype, np.uint16)
@@ -57,6 +64,49 @@ class Truth(unittest.TestCase):
         depth = self.read("depth", self.times[5])
         self.assertLess(np.median(depth[moving]), 3500)
         self.assertGreater(np.median(depth[~moving]), 4500)
+
+    def test_classes_are_those_of_the_labels(self):
+        self.assertEqual(self.table, json.loads((self.root.parent / "labels.json").read_text()))
+        self.assertEqual([row["id"] for row in self.table["instances"]], list(range(1, 1 + len(self.table["instances"]))))
+        rows = [{"name": "sky", "class": "sky"}, *self.table["instances"]]
+        classes = np.array([self.table["classes"][row["class"]] for row in rows])
+        seen = set()
+        for t_ns in self.times:
+            labels = self.read("labels", t_ns)
+            np.testing.assert_array_equal(classes[labels], self.read("semantic", t_ns))
+            seen.update(rows[label]["name"] for label in np.unique(labels))
+        self.assertLessEqual({"ground", "ball"}, seen)
+
+    def read_far(self, what, t_ns, ending):
+        return cv2.imread(str(self.folder / "far/truth/cam0" / what / f"{START_NS + t_ns}.{ending}"), cv2.IMREAD_UNCHANGED)
+
+    def test_float_depth_of_the_ground_is_that_of_a_plane(self):
+        K, X_FC = self.far.camera("cam0")
+        farthest = 0.0
+        for t_ns in self.far.images("cam0"):
+            p, R, *_ = self.far.state(t_ns)
+            X_EC = pose(R, p) @ X_FC
+            z = self.read_far("depth", t_ns, "tiff")
+            self.assertEqual(z.dtype, np.float32)
+            classes = self.read_far("semantic", t_ns, "png")
+            np.testing.assert_array_equal(np.isinf(z), classes == 0)
+            rows, cols = np.nonzero(classes == self.table["classes"]["ground"])
+            rays = X_EC[:3, :3] @ np.linalg.inv(K) @ np.array([cols, rows, np.ones_like(rows)])
+            expected = -X_EC[2, 3] / rays[2]
+            compared = expected < 1000  # a rounded pose moves points near the horizon
+            np.testing.assert_allclose(z[rows, cols][compared], expected[compared], rtol=1e-3)
+            farthest = max(farthest, expected[compared].max())
+        self.assertGreater(farthest, 100.0)  # beyond 16 bits of millimeters
+
+    def test_rendered_truth_equals_the_exported_one(self):
+        t_ns = sorted(self.far.images("cam0"))[-1]
+        for what, folder, ending in (("depth_m", "depth", "tiff"), ("labels", "labels", "png"), ("semantic", "semantic", "png")):
+            file = self.folder / f"{what}.{ending}"
+            done = hedgehop("render", self.folder / "run/scenario.yaml", "--camera", "left", "--what", what, "--time",
+                            1e-9 * t_ns, "-o", file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            np.testing.assert_array_equal(cv2.imread(str(file), cv2.IMREAD_UNCHANGED), self.read_far(folder, t_ns, ending))
+        self.assertEqual(self.table, json.loads((self.folder / "labels.json").read_text()))
 
     def test_flow_equals_that_from_depth_and_poses(self):
         K, X_FC = self.data.camera("cam0")

@@ -96,6 +96,10 @@ class Images(unittest.TestCase):
             depth = asked.image("front", "depth")
             self.assertEqual(depth.dtype, np.float32)
             self.assertGreater(np.nanmin(depth), 0)
+            labels, classes = asked.image("front", "labels"), asked.image("front", "semantic")
+            table = asked.labels
+            of_labels = [0, *(table["classes"][row["class"]] for row in table["instances"])]
+            np.testing.assert_array_equal(np.array(of_labels)[labels], classes)
             asked.step()
         self.assertEqual(asked.result()["trajectory_hash"], city().run()["trajectory_hash"])
 

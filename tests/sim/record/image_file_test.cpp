@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -23,6 +25,29 @@ TEST(ImageFile, PngIsReadBackUnchanged) {
     if (back.channels() == 3) cv::cvtColor(back, back, cv::COLOR_BGR2RGB);
     EXPECT_EQ(cv::norm(back, image(cv::Rect(3, 2, 60, 35)), cv::NORM_INF), 0.0);
   }
+}
+
+TEST(ImageFile, TiffIsReadBackUnchanged) {
+  const TemporaryFolder folder;
+  cv::Mat depth_m(41, 67, CV_32FC1);
+  cv::RNG random(4);
+  random.fill(depth_m, cv::RNG::UNIFORM, 0.0, 12'000.0);
+  depth_m.at<float>(5, 7) = std::numeric_limits<float>::infinity();
+  depth_m.at<float>(6, 7) = std::numeric_limits<float>::quiet_NaN();
+  const std::filesystem::path file = folder.path() / "depth.tiff";
+  const cv::Mat written = depth_m(cv::Rect(3, 2, 60, 35));  // rows that do not follow each other
+  write_tiff(file, written);
+  const cv::Mat back = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(back.type(), CV_32FC1);
+  ASSERT_EQ(back.size(), written.size());
+  for (int row = 0; row < back.rows; ++row) EXPECT_EQ(std::memcmp(back.ptr(row), written.ptr(row), 4 * 60), 0) << row;
+}
+
+TEST(ImageFile, LabelsBeyondSixteenBitsAreErrors) {
+  cv::Mat labels(2, 2, CV_32SC1, cv::Scalar(65'535));
+  EXPECT_EQ(labels_16bit(labels).at<uint16_t>(1, 1), 65'535);
+  labels.at<int>(1, 0) = 65'536;
+  EXPECT_THROW(labels_16bit(labels), std::runtime_error);
 }
 
 TEST(ImageFile, ErrorsNameTheFile) {

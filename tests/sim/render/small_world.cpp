@@ -16,11 +16,12 @@ void SmallWorld::quad(const Eigen::Vector3f& top_left_W, const Eigen::Vector3f& 
                       uint32_t texture) {
   scenes::Mesh& mesh = scene.meshes.front();
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  const auto instance = static_cast<uint32_t>(mesh.chunks.size());
   const Eigen::Vector3f n_W = down_W.cross(right_W).normalized();  // towards a viewer with `right` on the right
-  mesh.vertices.push_back({top_left_W, n_W, {0, 0}, texture});
-  mesh.vertices.push_back({top_left_W + down_W, n_W, {0, 1}, texture});
-  mesh.vertices.push_back({top_left_W + down_W + right_W, n_W, {1, 1}, texture});
-  mesh.vertices.push_back({top_left_W + right_W, n_W, {1, 0}, texture});
+  mesh.vertices.push_back({top_left_W, n_W, {0, 0}, texture, instance});
+  mesh.vertices.push_back({top_left_W + down_W, n_W, {0, 1}, texture, instance});
+  mesh.vertices.push_back({top_left_W + down_W + right_W, n_W, {1, 1}, texture, instance});
+  mesh.vertices.push_back({top_left_W + right_W, n_W, {1, 0}, texture, instance});
   for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
 }
 
@@ -34,6 +35,7 @@ void SmallWorld::close_chunk(bool fills_box_to_ground) {
     chunk.box_W.extend(mesh.vertices[mesh.indices[i]].p_W);
   }
   mesh.chunks.push_back(chunk);
+  mesh.instances.resize(mesh.chunks.size());
 }
 
 void SmallWorld::add_quad(const Eigen::Vector3f& top_left_W, const Eigen::Vector3f& right_W,

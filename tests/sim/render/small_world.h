@@ -16,9 +16,11 @@ class SmallWorld {
   /// One texture per image; a white one if there are no images.
   explicit SmallWorld(std::vector<cv::Mat> textures = {});
 
-  /// A box with outward faces, one chunk. Each face shows its texture once, upright as seen from outside.
+  /// A box with outward faces, one chunk and one instance. Each face shows its texture once, upright as seen from
+  /// outside.
   void add_box(const Eigen::AlignedBox3f& box_W, uint32_t texture = 0, bool fills_box_to_ground = false);
-  /// A parallelogram with its texture, one chunk. `right` and `down` are the sides of the texture seen from the front.
+  /// A parallelogram with its texture, one chunk and one instance. `right` and `down` are the sides of the texture seen
+  /// from the front.
   void add_quad(const Eigen::Vector3f& top_left_W, const Eigen::Vector3f& right_W, const Eigen::Vector3f& down_W,
                 uint32_t texture = 0);
   /// Tiles of the plane z = 0 over [-half_m, half_m]^2, seen from above.
