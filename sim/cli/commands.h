@@ -206,6 +206,27 @@ struct ExportOptions {
 /// Re-simulates a run and writes its sensor readings for other programs.
 int export_run(const ExportOptions& options);
 
+struct DatasetOptions {
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> overrides;  ///< "a.b=value"
+  std::string renderer;                ///< empty: the scenario's
+  std::string seeds = "1";
+  std::string poses = "random";  ///< or a file
+  std::string pose_of;           ///< role of the camera whose poses the file has; empty: the body
+  std::string camera;            ///< role; empty: the first with images
+  size_t images = 0;             ///< 0: all poses of the file
+  std::vector<std::string> channels = {"color", "depth", "flow", "semantic", "instance"};
+  std::vector<double> height_m = {1.0, 20.0}, distance_m = {1.0, 30.0};  ///< minimum, maximum
+  double tilt_deg = 20.0;
+  std::filesystem::path out;
+  size_t jobs = 1;
+  bool resume = false;
+  std::optional<size_t> world;         ///< hidden: a worker writes this world
+  std::vector<std::string> arguments;  ///< of the command line, for workers
+};
+/// Writes images along poses, with ground truth, calibration and manifest.
+int dataset(const DatasetOptions& options);
+
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
   std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: no comparison

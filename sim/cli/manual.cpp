@@ -45,6 +45,8 @@ constexpr Example kExamples[] = {
     {"reproduce", "hedgehop reproduce zingg2010 --quick", ""},
     {"bless", "hedgehop bless out/quickstart --reason \"inspected in report.html\"", ""},
     {"export", "hedgehop export out/quickstart --format euroc --truth", ""},
+    {"dataset", "hedgehop dataset configs/worlds/park.yaml --seeds 1:3 --images 6 --renderer tiles --out out/images",
+     "random poses"},
     {"report", "hedgehop report out/quickstart --replay", "report.html, and replay.html in 3-D"},
     {"report", "hedgehop report out/garratt2009_room --against out/before", "with the changes since out/before"},
     {"report", "hedgehop report out/garratt2009_room --film-strips 10", "with images of the worst flights"},

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "sim/batch/seeds.h"
+#include "sim/batch/worker_pool.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
+#include "sim/cli/progress.h"
+#include "sim/config/input_error.h"
+#include "sim/dataset/dataset.h"
+#include "sim/fields/bounds.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+DatasetRequest request_of(const DatasetOptions& options) {
+  DatasetRequest request{
+      .scenarios = options.scenarios, .overrides = options.overrides, .seeds = parse_seeds(options.seeds)};
+  if (!options.renderer.empty()) request.overrides.push_back("drawing.renderer=" + options.renderer);
+  if (options.poses != "random") request.poses = options.poses;
+  request.poses_of_camera = !options.pose_of.empty();
+  request.camera = options.pose_of.empty() ? options.camera : options.pose_of;
+  if (!options.camera.empty() && !options.pose_of.empty() && options.camera != options.pose_of) {
+    throw InputError("--camera and --pose-of name different cameras");
+  }
+  if (request.poses.empty() && request.poses_of_camera) throw InputError("--pose-of is for a file of poses");
+  request.images = options.images;
+  for (const std::string& channel : options.channels) request.channels.push_back(dataset_channel(channel));
+  request.bounds.min_height_m = options.height_m[0];
+  request.bounds.max_height_m = options.height_m[1];
+  request.bounds.min_distance_m = options.distance_m[0];
+  request.bounds.max_distance_m = options.distance_m[1];
+  request.bounds.max_tilt_rad = fields::to_radians(static_cast<long double>(options.tilt_deg));
+  request.out = options.out;
+  return request;
+}
+
+std::vector<std::string> worker_command(const DatasetOptions& options, size_t world) {
+  std::vector<std::string> command = {own_program().string()};
+  command.insert(command.end(), options.arguments.begin(), options.arguments.end());
+  command.push_back("--world");
+  command.push_back(fmt::to_string(world));
+  return command;
+}
+
+/// Writes the worlds that are missing, in worker processes. @return the exit status: that of the first world that
+/// fails.
+int write_worlds(const DatasetRequest& request, const DatasetOptions& options) {
+  Interruption interruption;
+  WorkerPool pool(options.jobs, 0.0, interruption);
+  const StatusLine line;
+  const size_t worlds = world_count(request);
+  size_t next = 0, written = 0;
+  int status = 0;
+  for (;;) {
+    while (next < worlds && pool.has_room()) {
+      const size_t world = next++;
+      if (is_written(request, world)) {
+        ++written;
+      } else {
+        pool.start(world, worker_command(options, world));
+      }
+    }
+    const std::optional<JobEnd> ended = pool.next();
+    if (!ended) break;
+    if (ended->end.kind == WorkerEnd::Kind::stopped) continue;
+    const bool done = ended->end.kind == WorkerEnd::Kind::exited && ended->end.code == 0;
+    if (done) {
+      ++written;
+      line.show(fmt::format("{} of {} worlds", written, worlds));
+      continue;
+    }
+    const bool bad_input = ended->end.kind == WorkerEnd::Kind::exited && ended->end.code == kBadInput;
+    if (status == 0) status = bad_input ? kBadInput : kInternalError;
+    line.keep(fmt::format("{}: {}", world_name(request, ended->job), cause_words(ended->end, 0.0)));
+  }
+  line.close();
+  return interruption.came() ? kSignalled + interruption.signal() : status;
+}
+
+}  // namespace
+
+int dataset(const DatasetOptions& options) {
+  const DatasetRequest request = request_of(options);
+  if (options.world) {
+    write_world(request, *options.world);
+    return 0;
+  }
+  begin_dataset(request, options.resume);
+  if (const int status = write_worlds(request, options); status != 0) {
+    notice(fmt::format("incomplete: {}; continue with --resume\n", request.out.string()));
+    return status;
+  }
+  finish_dataset(request);
+  fmt::print("written: {}\n", (request.out / "manifest.csv").string());
+  return 0;
+}
+
+}  // namespace hedgehop::sim::cli

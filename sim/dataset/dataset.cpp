@@ -1,0 +1,313 @@
+#include "sim/dataset/dataset.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "sim/config/include.h"
+#include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
+#include "sim/dataset/coco.h"
+#include "sim/dataset/pose_file.h"
+#include "sim/export/true_images.h"
+#include "sim/flight/build.h"
+#include "sim/libm/random.h"
+#include "sim/loop/cameras.h"
+#include "sim/loop/flight_environment.h"
+#include "sim/record/image_file.h"
+#include "sim/record/labels_file.h"
+#include "sim/record/table.h"
+#include "sim/scenario/calibration.h"
+#include "sim/scenario/scenario.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 6> kChannelNames = {"grey", "color", "depth", "flow", "semantic", "instance"};
+constexpr std::array<std::string_view, 3> kSplitNames = {"train", "val", "test"};
+
+std::string_view name_of(DatasetChannel channel) { return kChannelNames[static_cast<size_t>(channel)]; }
+std::string_view name_of(Split split) { return kSplitNames[static_cast<size_t>(split)]; }
+
+bool has_channel(const DatasetRequest& request, DatasetChannel channel) {
+  return std::ranges::find(request.channels, channel) != request.channels.end();
+}
+
+fs::path scenario_of(const DatasetRequest& request, size_t world) {
+  return request.scenarios[world / request.seeds.size()];
+}
+uint64_t seed_of(const DatasetRequest& request, size_t world) { return request.seeds[world % request.seeds.size()]; }
+
+fs::path part_of(const DatasetRequest& request, size_t world, std::string_view suffix) {
+  return request.out / "worlds" / fmt::format("{:06}.{}", world, suffix);
+}
+
+std::string request_json(const DatasetRequest& request) {
+  const PoseBounds& b = request.bounds;
+  std::vector<std::string> scenarios, channels;
+  for (const fs::path& scenario : request.scenarios) scenarios.push_back(scenario.string());
+  for (const DatasetChannel channel : request.channels) channels.emplace_back(name_of(channel));
+  const Json json{{"build", std::string(build_identity())},
+                  {"scenarios", scenarios},
+                  {"overrides", request.overrides},
+                  {"seeds", request.seeds},
+                  {"poses", request.poses.empty() ? "random" : request.poses.string()},
+                  {"poses_of_camera", request.poses_of_camera},
+                  {"camera", request.camera},
+                  {"images", request.images},
+                  {"channels", channels},
+                  {"height_m", {b.min_height_m, b.max_height_m}},
+                  {"tilt_rad", b.max_tilt_rad},
+                  {"distance_m", {b.min_distance_m, b.max_distance_m}},
+                  {"speed_mps", b.max_speed_mps},
+                  {"turn_radps", b.max_turn_radps}};
+  return json.dump(2) + "\n";
+}
+
+/// An image of a world: the body's motion then, and its pose at the next image, for the optic flow.
+struct Shot {
+  Cameras::Instant now;
+  std::optional<Cameras::Instant> next;
+};
+
+/// A world that draws its images.
+class World {
+ public:
+  World(const DatasetRequest& request, size_t world)
+      : request_(request),
+        scenario_(load_flight(scenario_of(request, world), request.overrides, seed_of(request, world)).scenario),
+        environment_(scenario_),
+        cameras_(scenario_.rig, Ticks(scenario_.physics_rate_hz.value()), *environment_.scene, environment_.renderer,
+                 scenario_.seed),
+        camera_(camera_index()) {}
+
+  const Scenario& scenario() const { return scenario_; }
+  const scenes::Scene& scene() const { return *environment_.scene; }
+  const CameraConfig& camera() const { return scenario_.rig.cameras[camera_]; }
+
+  /// @param count  0: all poses of the file.
+  std::vector<Shot> shots(size_t count) { return request_.poses.empty() ? random_shots(count) : shots_of_file(count); }
+
+  cv::Mat image(DatasetChannel channel, const Shot& shot) {
+    const auto draw = [&](ImageChannel drawn) {
+      return cameras_.image(camera_, drawn, shot.now, shot.next.value_or(shot.now));
+    };
+    switch (channel) {
+      case DatasetChannel::grey:
+        return draw(ImageChannel::grey);
+      case DatasetChannel::color:
+        return draw(ImageChannel::color);
+      case DatasetChannel::depth:
+        return draw(ImageChannel::depth);
+      case DatasetChannel::flow:
+        return kitti_flow(draw(ImageChannel::flow));
+      case DatasetChannel::semantic:
+        return labels_16bit(draw(ImageChannel::semantic));
+      case DatasetChannel::instance:
+        return labels_16bit(draw(ImageChannel::labels));
+    }
+    throw std::logic_error("a channel without a name");
+  }
+
+ private:
+  size_t camera_index() const {
+    if (!request_.camera.empty()) {
+      scenario_.rig.select({request_.camera});
+      return cameras_.index(request_.camera);
+    }
+    const auto has_images = [](const CameraConfig& c) {
+      return c.channel == CameraConfig::Channel::grey || c.channel == CameraConfig::Channel::color;
+    };
+    const auto first = std::ranges::find_if(scenario_.rig.cameras, has_images);
+    if (first == scenario_.rig.cameras.end()) throw InputError("the rig has no camera with images");
+    return static_cast<size_t>(first - scenario_.rig.cameras.begin());
+  }
+
+  std::vector<Shot> random_shots(size_t count) {
+    const double period_s = 1.0 / camera().rate_hz;
+    std::vector<Shot> shots;
+    for (const RandomPose& pose : random_poses(count, request_.bounds, scenario_.duration_s, scene(),
+                                               environment_.collision, stream_seed(scenario_.seed, "dataset"))) {
+      const BodyMotion body{pose.X_WB, pose.v_WB_W, pose.w_WB_B, pose.clearance_m};
+      Shot shot{.now = {std::llround(1e9 * pose.t_s), body}, .next = {}};
+      shot.next = Cameras::Instant{std::llround(1e9 * (pose.t_s + period_s)), {.X_WB = body.X_WB_after(period_s)}};
+      shots.push_back(shot);
+    }
+    return shots;
+  }
+
+  std::vector<Shot> shots_of_file(size_t count) {
+    const Eigen::Isometry3d X_BC = camera().X_BC();
+    Eigen::Isometry3d X_WB_start = Eigen::Isometry3d::Identity();
+    X_WB_start.linear() = Eigen::AngleAxisd(scenario_.start.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    X_WB_start.translation() = scenario_.start.p_WB();
+    const PoseReading reading{request_.poses_of_camera, scenario_.avionics.imu.p_BI_m, X_WB_start * X_BC};
+    const std::vector<TimedPose> poses = parse_poses(read_input_file(request_.poses), request_.poses.string(), reading);
+    const size_t taken = count == 0 ? poses.size() : std::min(count, poses.size());
+    std::vector<Shot> shots;
+    for (size_t i = 0; i < taken; ++i) {
+      const TimedPose& pose = poses[i * poses.size() / taken];
+      const Eigen::Isometry3d X_WB = request_.poses_of_camera ? pose.pose_W * X_BC.inverse() : pose.pose_W;
+      shots.push_back({.now = {std::llround(1e9 * std::max(0.0, pose.t_s)), {.X_WB = X_WB}}, .next = {}});
+      if (i > 0) shots[i - 1].next = shots[i].now;
+    }
+    return shots;
+  }
+
+  const DatasetRequest& request_;
+  const Scenario scenario_;
+  FlightEnvironment environment_;
+  Cameras cameras_;
+  size_t camera_;
+};
+
+void add_pose(const std::optional<Cameras::Instant>& instant, CsvLine& line) {
+  if (!instant) {
+    for (int i = 0; i < 8; ++i) line.add(NAN);
+    return;
+  }
+  const Eigen::Quaterniond q(instant->body.X_WB.linear());
+  line.add(1e-9 * static_cast<double>(instant->t_ns)).add(Eigen::Vector3d(instant->body.X_WB.translation()));
+  line.add(q.w()).add(Eigen::Vector3d(q.vec()));
+}
+
+constexpr std::string_view kManifestHead =
+    "image,scenario,seed,split,camera,visibility_m,clearance_m,t_s,north_m,east_m,down_m,qw,qx,qy,qz,next_t_s,next_"
+    "north_m,"
+    "next_east_m,next_down_m,next_qw,next_qx,next_qy,next_qz\n";
+
+/// Returns how many images a world has, and the number of its first.
+std::pair<size_t, size_t> images_of(const DatasetRequest& request, size_t world, size_t poses) {
+  if (request.images == 0) return {poses, world * poses};
+  const size_t worlds = world_count(request), each = request.images / worlds, more = request.images % worlds;
+  return {each + (world < more ? 1 : 0), world * each + std::min(world, more)};
+}
+
+}  // namespace
+
+DatasetChannel dataset_channel(const std::string& name) {
+  const auto found = std::ranges::find(kChannelNames, name);
+  if (found == kChannelNames.end()) {
+    throw InputError(fmt::format("--channels: unknown channel '{}'; valid: {}", name, fmt::join(kChannelNames, ", ")));
+  }
+  return static_cast<DatasetChannel>(found - kChannelNames.begin());
+}
+
+std::vector<Split> splits_of(size_t worlds) {
+  const size_t tenth = (worlds + 5) / 10, held_out = worlds < 3 ? 0 : std::max<size_t>(1, tenth);
+  std::vector<size_t> order(worlds);
+  for (size_t i = 0; i < worlds; ++i) order[i] = i;
+  Random random(stream_seed(worlds, "splits"));
+  for (size_t i = worlds; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<size_t>(uniform_index(random, static_cast<int>(i)))]);
+  std::vector<Split> splits(worlds, Split::train);
+  for (size_t i = 0; i < held_out; ++i) {
+    splits[order[i]] = Split::val;
+    splits[order[held_out + i]] = Split::test;
+  }
+  return splits;
+}
+
+size_t world_count(const DatasetRequest& request) { return request.scenarios.size() * request.seeds.size(); }
+
+std::string world_name(const DatasetRequest& request, size_t world) {
+  return fmt::format("{}-seed{}", scenario_of(request, world).stem().string(), seed_of(request, world));
+}
+
+void begin_dataset(const DatasetRequest& request, bool resume) {
+  if (request.channels.empty()) throw InputError("--channels: name at least one");
+  if (request.poses.empty() && request.images == 0) throw InputError("--images: random poses need a number of images");
+  const PoseBounds& b = request.bounds;
+  if (!(b.min_height_m < b.max_height_m)) throw InputError("--height: the first number must be the lower one");
+  if (!(b.min_distance_m < b.max_distance_m)) throw InputError("--distance: the first number must be the lower one");
+  const fs::path file = request.out / "request.json";
+  std::error_code error;
+  const bool is_used = fs::exists(request.out, error) && !fs::is_empty(request.out, error);
+  if (is_used && !resume) {
+    throw InputError(fmt::format("{}: is not an empty folder; continue an interrupted data set with --resume",
+                                 request.out.string()));
+  }
+  const std::string text = request_json(request);
+  if (is_used && (!fs::exists(file) || read_input_file(file) != text)) {
+    throw InputError(fmt::format("{}: holds a data set of another request or build", request.out.string()));
+  }
+  require_writable(request.out);
+  fs::create_directories(request.out / "worlds");
+  fs::create_directories(request.out / "labels");
+  fs::create_directories(request.out / "calibration");
+  write_file_whole(file, text);
+}
+
+bool is_written(const DatasetRequest& request, size_t world) {
+  std::error_code error;
+  return fs::exists(part_of(request, world, "csv"), error);
+}
+
+void write_world(const DatasetRequest& request, size_t world) {
+  World drawn(request, world);
+  const Scenario& scenario = drawn.scenario();
+  const Split split = splits_of(world_count(request))[world];
+  const fs::path folder = request.out / name_of(split);
+  for (const DatasetChannel channel : request.channels) fs::create_directories(folder / name_of(channel));
+  const size_t wanted = request.images == 0 ? 0 : images_of(request, world, 0).first;
+  const std::vector<Shot> shots = request.images > 0 && wanted == 0 ? std::vector<Shot>{} : drawn.shots(wanted);
+  const size_t first = images_of(request, world, shots.size()).second;
+  CocoImages coco(drawn.scene());
+  fmt::memory_buffer rows;
+  for (size_t i = 0; i < shots.size(); ++i) {
+    const Shot& shot = shots[i];
+    const std::string stem = fmt::format("{:06}", first + i);
+    for (const DatasetChannel channel : request.channels) {
+      if (channel == DatasetChannel::flow && !shot.next) continue;
+      const cv::Mat image = drawn.image(channel, shot);
+      const fs::path name = fs::path(name_of(channel)) / stem;
+      if (channel == DatasetChannel::depth) {
+        write_tiff(folder / (name.string() + ".tiff"), image);
+      } else {
+        write_png(folder / (name.string() + ".png"), image);
+      }
+      if (channel == DatasetChannel::instance) coco.add(first + i, stem + ".png", image);
+    }
+    CsvLine line(rows);
+    line.add(stem).add(scenario.name).add(fmt::to_string(scenario.seed)).add(name_of(split)).add(drawn.camera().role);
+    line.add(scenario.drawing.visibility_m);
+    line.add(request.poses.empty() ? shot.now.body.clearance_m : NAN);
+    add_pose(shot.now, line);
+    add_pose(shot.next, line);
+  }
+  write_file_whole(request.out / "labels" / (world_name(request, world) + ".json"), labels_json(drawn.scene()));
+  const std::array<CameraConfig, 1> camera = {drawn.camera()};
+  try {
+    write_file_whole(request.out / "calibration" / (scenario_of(request, world).stem().string() + ".yaml"),
+                     opencv_calibration(camera, scenario.avionics.imu));
+  } catch (const std::invalid_argument& fault) {
+    throw InputError(fault.what());
+  }
+  write_file_whole(part_of(request, world, "json"), coco.json());
+  write_file_whole(part_of(request, world, "csv"), fmt::to_string(rows));
+}
+
+void finish_dataset(const DatasetRequest& request) {
+  std::string manifest(kManifestHead);
+  const std::vector<Split> splits = splits_of(world_count(request));
+  for (size_t world = 0; world < splits.size(); ++world) manifest += read_input_file(part_of(request, world, "csv"));
+  write_file_whole(request.out / "manifest.csv", manifest);
+  if (!has_channel(request, DatasetChannel::instance)) return;
+  for (const Split split : {Split::train, Split::val, Split::test}) {
+    std::vector<std::string> parts;
+    for (size_t world = 0; world < splits.size(); ++world) {
+      if (splits[world] == split) parts.push_back(read_input_file(part_of(request, world, "json")));
+    }
+    write_file_whole(request.out / fmt::format("coco_{}.json", name_of(split)), join_coco(parts));
+  }
+}
+
+}  // namespace hedgehop::sim
