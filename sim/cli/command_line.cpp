@@ -145,41 +145,6 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 }
 
-void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions& data) {
-  CLI::App* const command = app.add_subcommand(
-      "dataset", "write images along poses, without flights, with ground truth, calibration and manifest");
-  command->add_option("SCENARIO", data.scenarios, "scenario files (YAML)")->required();
-  command->add_option("--set", data.overrides, "override a key, such as drawing.visibility=100; may be repeated")
-      ->type_name("KEY=VALUE");
-  command->add_option("--renderer", data.renderer, "osmesa, egl or tiles; default that of the scenario")
-      ->type_name("NAME");
-  command->add_option("--seeds", data.seeds, "seeds of the worlds of each scenario, such as 1:10; default 1");
-  command->add_option("--poses", data.poses,
-                      "random (the default), or a file: trajectory.csv of a run, CSV, EuRoC, TUM or KITTI");
-  command->add_option("--pose-of", data.pose_of, "role of the camera whose poses the file has; default the body")
-      ->type_name("NAME");
-  command->add_option("--camera", data.camera, "role of the camera; default the first with images")->type_name("NAME");
-  command->add_option("--images", data.images,
-                      "number of images in all worlds together; default all poses of the file");
-  command->add_option("--channels", data.channels, "default color,depth,flow,semantic,instance; also grey")
-      ->delimiter(',');
-  command->add_option("--height", data.height_m, "random poses: minimum and maximum height, m; default 1,20")
-      ->delimiter(',')
-      ->expected(2);
-  command
-      ->add_option("--distance", data.distance_m,
-                   "random poses: minimum and maximum distance to the nearest obstacle, m; default 1,30")
-      ->delimiter(',')
-      ->expected(2);
-  command->add_option("--tilt", data.tilt_deg, "random poses: maximum of roll and of pitch, degrees; default 20")
-      ->check(CLI::Range(0.0, 80.0));
-  command->add_option("--out", data.out, "output folder")->required()->type_name("DIR");
-  command->add_option("-j,--jobs", data.jobs, "worlds in parallel; default 1")->check(CLI::Range(1, 1024));
-  command->add_flag("--resume", data.resume, "continue an interrupted data set");
-  command->add_option("--world", data.world)->group("");  // hidden: for workers
-  command->callback([&] { chosen = [&data] { return cli::dataset(data); }; });
-}
-
 void declare_report(CLI::App& app, std::function<int()>& chosen, ReportOptions& report) {
   CLI::App* const command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep");
   command->add_option("DIR", report.folder, "output folder of the run, batch or sweep")

@@ -226,6 +226,7 @@ struct DatasetOptions {
 };
 /// Writes images along poses, with ground truth, calibration and manifest.
 int dataset(const DatasetOptions& options);
+void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions& data);
 
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep

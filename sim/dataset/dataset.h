@@ -42,6 +42,9 @@ std::string world_name(const DatasetRequest& request, size_t world);
 /// Throws InputError otherwise, and for a request without channels or images.
 void begin_dataset(const DatasetRequest& request, bool resume);
 
+/// Empties the folder again if no world is complete, so that a corrected request can begin.
+void abandon_dataset(const DatasetRequest& request);
+
 /// Whether a world is complete.
 bool is_written(const DatasetRequest& request, size_t world);
 

@@ -37,6 +37,7 @@ std::vector<std::string> words_of(std::string text) {
     const size_t begin = word.find_first_not_of(" \t\r"), end = word.find_last_not_of(" \t\r");
     words.push_back(begin == std::string::npos ? "" : word.substr(begin, end - begin + 1));
   }
+  if (text.ends_with(',')) words.emplace_back();  // an empty value at the end
   return words;
 }
 

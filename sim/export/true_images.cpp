@@ -7,8 +7,6 @@
 #include "sim/record/image_file.h"
 
 namespace hedgehop::sim {
-namespace {
-
 cv::Mat kitti_flow(const cv::Mat& flow_px) {
   constexpr float kUnitsPerPixel = 64.0f, kZero = 32768.0f;
   cv::Mat coded(flow_px.size(), CV_16UC3, cv::Scalar::all(0));
@@ -23,8 +21,6 @@ cv::Mat kitti_flow(const cv::Mat& flow_px) {
   }
   return coded;
 }
-
-}  // namespace
 
 std::vector<ImageFile> TrueImages::images(size_t camera, const std::string& role, const SensorTick& tick,
                                           const std::string& stem) {

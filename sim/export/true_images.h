@@ -11,6 +11,10 @@
 
 namespace hedgehop::sim {
 
+/// Returns optic flow in KITTI's encoding, CV_16UC3, RGB: red 64 u + 32768, green 64 v + 32768, blue 1 if known
+/// [MenzeGeiger2015] sec. 4. @param flow_px  CV_32FC2.
+cv::Mat kitti_flow(const cv::Mat& flow_px);
+
 /// An image of a data set. `name` is relative to the folder of the set.
 struct ImageFile {
   std::filesystem::path name;

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <opencv2/core/persistence.hpp>
 #include <regex>
 #include <string_view>
 
 #include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/scenario/calibration_text.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -248,57 +248,10 @@ bool has_matrix(const Node& map) {
   return map.kind == Node::Kind::map && find(map, {"camera_matrix", "cameraMatrix", "K", "k"});
 }
 
-/// Converts OpenCV's tree. Numbers keep their bits.
-Node to_node(const cv::FileNode& from, const std::string& file) {
-  Node node;
-  node.position = {.file = file};
-  if (from.isMap()) {
-    node.kind = Node::Kind::map;
-    for (const cv::FileNode item : from) node.entries.push_back({item.name(), node.position, to_node(item, file)});
-  } else if (from.isSeq()) {
-    node.kind = Node::Kind::list;
-    for (const cv::FileNode item : from) node.items.push_back(to_node(item, file));
-  } else if (from.isInt() || from.isReal()) {
-    node.kind = Node::Kind::scalar;
-    node.text = number_text(static_cast<double>(from), false);
-  } else if (from.isString()) {
-    node.kind = Node::Kind::scalar;
-    node.text = static_cast<std::string>(from);
-  }
-  return node;
-}
-
-Node parse_xml(const std::string& text, const std::string& file) {
-  try {
-    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    return to_node(storage.root(), file);
-  } catch (const cv::Exception& error) {
-    throw InputError(fmt::format("{}: cannot be read as XML of OpenCV: {}", file, error.err));
-  }
-}
-
-/// Parses YAML with OpenCV's header and tags, which standard YAML lacks; lines keep their numbers.
-Node parse_yaml_of_opencv(std::string text, const std::string& file) {
-  text = std::regex_replace(text, std::regex("!!opencv-[a-z-]+"), "");
-  if (text.starts_with("%YAML")) text.erase(0, std::min(text.find('\n'), text.size()));
-  ErrorList errors("calibration");
-  Node root = parse_yaml(text, file, errors);
-  errors.throw_if_any();
-  return root;
-}
-
 }  // namespace
 
-bool is_ocam_calibration(const std::string& text) {
-  static const std::regex kFirst(R"((?:\s*#[^\n]*\n|\s*\n)*\s*[-+.\d][-+.\deE \t]*(?:\r?\n[\s\S]*)?)");
-  const std::string head = text.substr(0, text.find('\n', std::min<size_t>(text.size(), 2000)));
-  return std::regex_match(head, kFirst);
-}
-
 std::vector<CalibratedCamera> parse_calibration(const std::string& text, const std::string& file) {
-  const size_t first = text.find_first_not_of(" \t\r\n");
-  const bool is_xml = first != std::string::npos && text[first] == '<';
-  const Node root = is_xml ? parse_xml(text, file) : parse_yaml_of_opencv(text, file);
+  const Node root = parse_calibration_text(text, file);
   if (root.kind == Node::Kind::map) {
     if (has_matrix(root)) return {read_matrix_camera(root, "")};
     if (root.find("camera_model")) return {read_sensor(root)};

@@ -26,7 +26,4 @@ struct CalibratedCamera {
 /// prism, tilted, extended unified, fov). @param file  name for messages.
 std::vector<CalibratedCamera> parse_calibration(const std::string& text, const std::string& file);
 
-/// Returns whether a text is a calibration of OCamCalib: its first line without a comment is a row of numbers.
-bool is_ocam_calibration(const std::string& text);
-
 }  // namespace hedgehop::sim

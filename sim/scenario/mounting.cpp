@@ -13,6 +13,7 @@
 #include "sim/libm/random.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/calibration_file.h"
+#include "sim/scenario/calibration_text.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {

@@ -93,7 +93,8 @@ class Dataset(unittest.TestCase):
             self.assertTrue(1.0 <= -float(row["down_m"]) <= 20.0)
 
     def test_flow_is_that_of_depth_and_poses(self):
-        camera = cv2.FileStorage(str(self.out / "calibration/park.yaml"), cv2.FILE_STORAGE_READ).getNode("front")
+        calibration = cv2.FileStorage(str(self.out / "calibration/park.yaml"), cv2.FILE_STORAGE_READ)
+        camera = calibration.getNode("front")
         K, X_BC = camera.getNode("camera_matrix").mat(), camera.getNode("body_from_camera").mat()
         compared = 0
         for row in self.rows:
@@ -165,7 +166,7 @@ class Dataset(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             return done.stderr
 
-        self.assertIn("valid: grey, color, depth", refused("--images", 2, "--channels", "colour"))
+        self.assertIn("valid: grey, color, depth", refused("--images", 2, "--channels", "collor"))
         self.assertIn("need a number of images", refused())
         self.assertIn("not in the rig; valid: front, down", refused("--images", 1, "--camera", "up"))
         self.assertIn("random poses in a row", refused("--images", 1, "--height", "900,901"))

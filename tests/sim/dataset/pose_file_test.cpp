@@ -69,12 +69,12 @@ void expect_motion(const std::vector<TimedPose>& poses, double t_error_s = 1e-12
 }
 
 TEST(PoseFile, EveryFormatGivesTheMotionOfTheBody) {
-  std::string own = "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,speed\n",
+  std::string own = "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad,speed,unknown\n",
               euroc = "#timestamp [ns],p_RS_R_x [m]\n", tum = "# ground truth\n# timestamp tx ty tz qx qy qz qw\n",
               table = "time, qw, qx, qy, qz, x, y, z\n";
   for (const Motion& m : some_motion()) {
-    own += fmt::format("{},{},{},{},{},{},{},7\n", m.t_s, m.p_W.x(), m.p_W.y(), m.p_W.z(), m.rpy_rad.x(), m.rpy_rad.y(),
-                       m.rpy_rad.z());
+    own += fmt::format("{},{},{},{},{},{},{},7,\n", m.t_s, m.p_W.x(), m.p_W.y(), m.p_W.z(), m.rpy_rad.x(),
+                       m.rpy_rad.y(), m.rpy_rad.z());
     const auto [p, q] = exported(m);
     const int64_t ns = std::llround(m.t_s * 1e9);
     euroc += fmt::format("{},{},{},{},{},{},{},{},0,0,0\n", 1403636579763555584 + ns, p.x(), p.y(), p.z(), q.w(), q.x(),

@@ -1,0 +1,68 @@
+#include "sim/scenario/calibration_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/core/persistence.hpp>
+#include <regex>
+
+#include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
+
+namespace hedgehop::sim {
+namespace {
+
+/// Converts OpenCV's tree.
+Node to_node(const cv::FileNode& from, const std::string& file) {
+  Node node;
+  node.position = {.file = file};
+  if (from.isMap()) {
+    node.kind = Node::Kind::map;
+    for (const cv::FileNode item : from) node.entries.push_back({item.name(), node.position, to_node(item, file)});
+  } else if (from.isSeq()) {
+    node.kind = Node::Kind::list;
+    for (const cv::FileNode item : from) node.items.push_back(to_node(item, file));
+  } else if (from.isInt() || from.isReal()) {
+    node.kind = Node::Kind::scalar;
+    node.text = number_text(static_cast<double>(from), false);
+  } else if (from.isString()) {
+    node.kind = Node::Kind::scalar;
+    node.text = static_cast<std::string>(from);
+  }
+  return node;
+}
+
+Node parse_xml(const std::string& text, const std::string& file) {
+  try {
+    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    return to_node(storage.root(), file);
+  } catch (const cv::Exception& error) {
+    throw InputError(fmt::format("{}: cannot be read as XML of OpenCV: {}", file, error.err));
+  }
+}
+
+/// Parses YAML with OpenCV's header and tags, which standard YAML lacks.
+Node parse_yaml_of_opencv(std::string text, const std::string& file) {
+  text = std::regex_replace(text, std::regex("!!opencv-[a-z-]+"), "");
+  if (text.starts_with("%YAML")) text.erase(0, std::min(text.find('\n'), text.size()));
+  ErrorList errors("calibration");
+  Node root = parse_yaml(text, file, errors);
+  errors.throw_if_any();
+  return root;
+}
+
+}  // namespace
+
+Node parse_calibration_text(const std::string& text, const std::string& file) {
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_xml = first != std::string::npos && text[first] == '<';
+  return is_xml ? parse_xml(text, file) : parse_yaml_of_opencv(text, file);
+}
+
+bool is_ocam_calibration(const std::string& text) {
+  static const std::regex kFirst(R"((?:\s*#[^\n]*\n|\s*\n)*\s*[-+.\d][-+.\deE \t]*(?:\r?\n[\s\S]*)?)");
+  const std::string head = text.substr(0, text.find('\n', std::min<size_t>(text.size(), 2000)));
+  return std::regex_match(head, kFirst);
+}
+
+}  // namespace hedgehop::sim
