@@ -110,7 +110,7 @@ class Recorder : public FlightWatcher {
       const Eigen::Matrix3d R = R_FB();
       record_.imu.push_back({tick.t_ns, R * tick.imu->w_WB_B_meas, R * tick.imu->specific_force_B_meas});
     }
-    const bool images = !record_.imu.empty() && take_images(tick);
+    const bool images = !record_.imu.empty() && record_.imu.front().t_ns < tick.t_ns && take_images(tick);
     if (tick.imu || images) record_.states.push_back(state(tick));
   }
 
