@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -13,8 +14,8 @@
 
 namespace hedgehop::scenes::mesh {
 
-/// A mesh from an OBJ or glTF file (.gltf, .glb). The model is placed upright with its front along the heading. The
-/// front is -z if y is up, and y if z is up.
+/// A mesh from an OBJ, glTF (.gltf, .glb), DAE, PLY or STL file. The model is placed upright with its front along the
+/// heading. If y is up, the front is +z in glTF and -z in other formats; if z is up, it is y.
 struct ImportConfig {
   enum class Up { y, z };
   enum class Collide { surface, none };
@@ -25,6 +26,7 @@ struct ImportConfig {
   double north_m = 0.0, east_m = 0.0, altitude_m = 0.0;
   double heading_rad = 0.0;
   double scale = 1.0;
+  Eigen::Vector3d origin_ENU = Eigen::Vector3d::Zero();  ///< of the model's coordinates, in its units
   Up up = Up::y;
   Collide collide = Collide::surface;
 };
@@ -32,7 +34,7 @@ struct ImportConfig {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
   v("file", c.file,
-    {.required = true, .meaning = "OBJ or glTF file; relative to the folder of the file that names it"});
+    {.required = true, .meaning = "OBJ, glTF, DAE, PLY or STL file; relative to the folder of the file that names it"});
   v("name", c.name, {.meaning = "name of the obstacle in results"});
   v("class", c.kind,
     {.choices = {kSemanticClassNames.begin(), kSemanticClassNames.end()}, .meaning = "class in semantic images"});
@@ -41,24 +43,29 @@ void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
   v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the model's origin"});
   v("heading", c.heading_rad, {.unit = "deg", .meaning = "heading of the model's front, from north to east"});
   v("scale", c.scale, {.above = 0.0, .meaning = "meters per unit of the model"});
+  v("origin", c.origin_ENU,
+    {.at_least = -1e8,
+     .at_most = 1e8,
+     .meaning = "origin of georeferenced coordinates: east, north and up, in units of the model"});
   v("up", c.up, {.choices = {"y", "z"}, .meaning = "the model's axis that points up"});
   v("collide", c.collide, {.choices = {"surface", "none"}, .meaning = "obstacles: all triangles of the mesh, or none"});
 }
 
 /// Adds imported meshes to a scene: triangles, one texture per material (its image or its color) and, unless `collide`
-/// is `none`, one solid of shape `surface` per mesh in the file. Textures are resized to the size of the scene's
+/// is `none`, one solid of shape `surface` per part of the file. Textures are resized to the size of the scene's
 /// textures.
+/// @return one line for each file with features that are not rendered, or images that are reduced.
 /// @throws std::invalid_argument that begins with the faulty key; for a file it states the reason: missing, unreadable,
 /// without triangles, or an image missing.
-void add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
+std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, Scene& scene);
 
 /// Returns all files that an import reads: the mesh, its materials, buffers and images. Images embedded in another file
 /// are not listed. @throws std::invalid_argument if the mesh cannot be read.
 std::set<std::filesystem::path> mesh_files(const std::filesystem::path& mesh);
 
-/// Returns the decoded texture of a mesh: PNG of any depth, JPEG, or PPM and PGM (P2, P3, P5, P6), without
-/// transparency.
-/// @return CV_8UC3, RGB; empty if the format is another, the data is invalid, or it has more than 64 million pixels.
+/// Returns the decoded image of a mesh: PNG of any depth, JPEG, BMP, TGA, TIFF, WebP, or PPM and PGM (P2, P3, P5, P6).
+/// @return CV_8UC3, RGB, or CV_8UC4 with alpha; empty if the format is another or the data is invalid.
+/// @throws std::invalid_argument if it has more than 8192 x 8192 pixels.
 cv::Mat decode_texture(std::span<const uint8_t> bytes);
 
 }  // namespace hedgehop::scenes::mesh

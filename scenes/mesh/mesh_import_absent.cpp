@@ -5,8 +5,8 @@
 
 namespace hedgehop::scenes::mesh {
 
-void add_imports(const std::vector<ImportConfig>& imports, Scene&) {
-  if (imports.empty()) return;
+std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, Scene&) {
+  if (imports.empty()) return {};
   throw fields::InvalidField("imports",
                              "this build of Hedgehop cannot read meshes (see hedgehop --version --features)");
 }

@@ -2,16 +2,21 @@
 
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace hedgehop::scenes::mesh {
@@ -19,39 +24,57 @@ namespace hedgehop::scenes::mesh {
 namespace {
 
 constexpr uintmax_t kMaxBytes = 64'000'000;
-constexpr int kMaxNesting = 200;  // the importer's JSON reader recurses
-constexpr size_t kMaxNodes = 2'000;
+constexpr int kMaxNesting = 200;  // readers of JSON and XML recurse
 constexpr size_t kMaxFaces = 500'000;
+constexpr std::array<std::string_view, 6> kSuffixes{".obj", ".gltf", ".glb", ".dae", ".ply", ".stl"};
 
-/// Recursion depth that a glTF causes in the importer.
-struct JsonNesting {
-  int brackets = 0;  ///< nested, outside strings
-  size_t nodes = 0;  ///< each may be the parent of the next
-};
-
-JsonNesting json_nesting(std::string_view json) {
-  JsonNesting found;
-  int now = 0;
-  size_t text = 0;
-  bool in_text = false, in_nodes = false;
-  std::string_view key;
+/// Returns the depth of nested brackets outside strings.
+int json_nesting(std::string_view json) {
+  int now = 0, deepest = 0;
+  bool in_text = false;
   for (size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (in_text && c == '\\') {
       ++i;
     } else if (c == '"') {
       in_text = !in_text;
-      if (in_text) text = i + 1;
-      if (!in_text && now == 1) key = json.substr(text, i - text);
     } else if (!in_text && (c == '[' || c == '{')) {
-      found.brackets = std::max(found.brackets, ++now);
-      if (now == 2) in_nodes = key == "nodes" || key.find('\\') != std::string_view::npos;
-      if (now == 3 && in_nodes) ++found.nodes;
+      deepest = std::max(deepest, ++now);
     } else if (!in_text && (c == ']' || c == '}')) {
       --now;
     }
   }
-  return found;
+  return deepest;
+}
+
+/// Returns the depth of nested elements, counting every tag.
+int xml_nesting(std::string_view xml) {
+  int now = 0, deepest = 0;
+  for (size_t i = xml.find('<'); i != std::string_view::npos; i = xml.find('<', i + 1)) {
+    const char next = i + 1 < xml.size() ? xml[i + 1] : '>';
+    if (next == '?' || next == '!') continue;
+    const size_t end = xml.find('>', i);
+    if (next == '/') {
+      --now;
+    } else if (end == std::string_view::npos || xml[end - 1] != '/') {
+      deepest = std::max(deepest, ++now);
+    }
+  }
+  return deepest;
+}
+
+/// Returns whether the header of a PLY announces more elements than the file has bytes. The importer would reserve
+/// their memory.
+bool announces_too_much(std::string_view ply) {
+  double elements = 0.0;
+  const std::string_view header = ply.substr(0, ply.find("end_header"));
+  for (size_t at = header.find("element"); at != std::string_view::npos; at = header.find("element", at + 1)) {
+    std::istringstream line(std::string(header.substr(at, 200)));
+    std::string word, name;
+    double count = 0.0;
+    if (line >> word >> name >> count) elements += std::abs(count);
+  }
+  return elements > static_cast<double>(ply.size());
 }
 
 /// Returns the JSON of a binary glTF: its first chunk, after the file's header of 12 bytes and the chunk's of 8.
@@ -82,32 +105,37 @@ bool may_be_read(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMaxBytes;
 }
 
-void require_importable(const std::filesystem::path& mesh) {
+std::string suffix_of(const std::filesystem::path& file) {
+  std::string suffix = file.extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+std::string require_importable(const std::filesystem::path& mesh) {
+  const auto refuse_if = [](bool fault, const std::string& why) {
+    if (fault) throw std::invalid_argument(why);
+  };
   std::error_code error;
-  if (!std::filesystem::exists(mesh, error)) throw std::invalid_argument("there is no such file");
-  if (!std::filesystem::is_regular_file(mesh, error)) throw std::invalid_argument("it is not a regular file");
-  if (!may_be_read(mesh)) throw std::invalid_argument("it is larger than 64 MB");
-  std::string kind = mesh.extension().string();
-  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (kind != ".obj" && kind != ".gltf" && kind != ".glb") {
-    throw std::invalid_argument("its suffix is not .obj, .gltf or .glb");
-  }
+  refuse_if(!std::filesystem::exists(mesh, error), "there is no such file");
+  refuse_if(!std::filesystem::is_regular_file(mesh, error), "it is not a regular file");
+  refuse_if(!may_be_read(mesh), "it is larger than 64 MB");
+  const std::string suffix = suffix_of(mesh);
+  refuse_if(std::ranges::find(kSuffixes, suffix) == kSuffixes.end(),
+            "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
   std::ifstream stream(mesh, std::ios::binary);
   std::string text(std::filesystem::file_size(mesh, error), '\0');
   stream.read(text.data(), std::ssize(text));
   text.resize(static_cast<size_t>(stream.gcount()));
-  if (!stream.is_open() || stream.bad()) throw std::invalid_argument("it cannot be read");
-  if (kind != ".obj") {
-    const JsonNesting found = json_nesting(kind == ".glb" ? json_of_glb(text) : text);
-    if (found.brackets > kMaxNesting) {
-      throw std::invalid_argument("its JSON is nested deeper than " + std::to_string(kMaxNesting));
-    }
-    if (found.nodes > kMaxNodes)
-      throw std::invalid_argument("it has more than " + std::to_string(kMaxNodes) + " nodes");
+  refuse_if(!stream.is_open() || stream.bad(), "it cannot be read");
+  const std::string too_deep = "is nested deeper than " + std::to_string(kMaxNesting);
+  if (suffix == ".gltf" || suffix == ".glb") {
+    const bool is_binary = text.starts_with("glTF");
+    refuse_if(json_nesting(is_binary ? json_of_glb(text) : text) > kMaxNesting, "its JSON " + too_deep);
   }
-  if (kind == ".obj" && faces(text) > kMaxFaces) {
-    throw std::invalid_argument("it has more than " + std::to_string(kMaxFaces) + " faces");
-  }
+  refuse_if(suffix == ".dae" && xml_nesting(text) > kMaxNesting, "its XML " + too_deep);
+  refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
+  refuse_if(suffix == ".obj" && faces(text) > kMaxFaces, "it has more than " + std::to_string(kMaxFaces) + " faces");
+  return text;
 }
 
 namespace {
@@ -117,7 +145,8 @@ constexpr unsigned kMaxFaceCorners = 1000;
 /// Opens regular files only. The mesh names its materials and buffers, which could be pipes or devices.
 class GuardedFiles : public Assimp::DefaultIOSystem {
  public:
-  explicit GuardedFiles(std::set<std::filesystem::path>* opened) : opened_(opened) {}
+  GuardedFiles(std::string mesh, const std::string& text, std::set<std::filesystem::path>* opened)
+      : mesh_(std::move(mesh)), text_(text), opened_(opened) {}
 
   bool Exists(const char* file) const override {  // assimp's version opens the file
     std::error_code error;
@@ -127,21 +156,26 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
     if (Exists(file) && !may_be_read(file)) {
       throw std::invalid_argument(std::string("its file '") + file + "' is not a regular file of at most 64 MB");
     }
-    Assimp::IOStream* const stream = DefaultIOSystem::Open(file, mode);
+    const auto* const bytes = reinterpret_cast<const uint8_t*>(text_.data());
+    Assimp::IOStream* const stream =
+        file == mesh_ ? new Assimp::MemoryIOStream(bytes, text_.size()) : DefaultIOSystem::Open(file, mode);
     if (stream && opened_) opened_->insert(std::filesystem::path(file).lexically_normal());
     return stream;
   }
 
  private:
+  std::string mesh_;  ///< its contents are `text_`
+  const std::string& text_;
   std::set<std::filesystem::path>* opened_;
 };
 
-/// Removes all loaders except OBJ and glTF. Otherwise the importer tries some forty untested formats by content.
-void forget_other_formats(Assimp::Importer& importer) {
+/// Removes all loaders except those of the file's suffix. Otherwise the importer tries some forty by content.
+void forget_other_formats(Assimp::Importer& importer, const std::string& suffix) {
   for (size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* const loader = importer.GetImporter(i);
-    const std::string_view endings = loader->GetInfo()->mFileExtensions;
-    if (endings == "obj" || endings == "gltf glb") continue;
+    std::istringstream endings(loader->GetInfo()->mFileExtensions);
+    const std::set<std::string> all{std::istream_iterator<std::string>(endings), {}};
+    if (all.contains(suffix.substr(1))) continue;
     importer.UnregisterLoader(loader);
     delete loader;
   }
@@ -150,6 +184,7 @@ void forget_other_formats(Assimp::Importer& importer) {
 size_t triangles_of(const aiMesh& mesh) {
   size_t triangles = 0;
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
+    if (face.mNumIndices == 0) throw std::invalid_argument("it has a face without corners");  // ends the importer
     if (face.mNumIndices > kMaxFaceCorners) {
       throw std::invalid_argument("it has a face of more than " + std::to_string(kMaxFaceCorners) + " corners");
     }
@@ -177,11 +212,10 @@ void require_bounded(const aiScene& model) {
 
 }  // namespace
 
-const aiScene& read_mesh(const std::filesystem::path& mesh, Assimp::Importer& importer,
+const aiScene& read_mesh(const std::filesystem::path& mesh, const std::string& text, Assimp::Importer& importer,
                          std::set<std::filesystem::path>* opened) {
-  require_importable(mesh);
-  forget_other_formats(importer);
-  importer.SetIOHandler(new GuardedFiles(opened));  // the importer deletes it
+  forget_other_formats(importer, suffix_of(mesh));
+  importer.SetIOHandler(new GuardedFiles(mesh.string(), text, opened));  // the importer deletes it
   const aiScene* const model = importer.ReadFile(mesh.string(), aiProcess_ValidateDataStructure);
   if (!model || !model->mRootNode || (model->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
     throw std::invalid_argument(importer.GetErrorString());

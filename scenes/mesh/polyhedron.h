@@ -34,11 +34,4 @@ Eigen::Vector3d spiral_direction(int k, int count, double first_rad);
 /// @param points  4..64; the few that lie inside the hull are dropped. @param roughness  0..0.5.
 Polyhedron convex_lump(int points, double roughness, Random& random);
 
-/// Orientation of a mesh's triangles. Those of a closed body should face outward, but some files store them inward.
-enum class Facing { outward, inward, open };
-
-/// Returns the orientation of a body's faces. A body is closed if each edge occurs once in each direction; corners at
-/// the same position count as one.
-Facing facing_of(const Polyhedron& body);
-
 }  // namespace hedgehop::scenes::mesh

@@ -1,42 +1,39 @@
-#include "scenes/mesh/mesh_import.h"
+#include "scenes/mesh/texture_image.h"
 
 #include <png.h>
 #include <turbojpeg.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
+#include "scenes/mesh/mesh_import.h"
+
 namespace hedgehop::scenes::mesh {
 namespace {
-
-constexpr int64_t kMaxPixels = 64'000'000;
 
 cv::Mat decode_png(std::span<const uint8_t> bytes) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, void (*)(png_image*)> freed(&header, png_image_free);
   if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size())) return {};
-  if (int64_t{header.width} * header.height > kMaxPixels) return {};
-  header.format = PNG_FORMAT_RGBA;  // without alpha, libpng would blend it with a background
-  cv::Mat rgba(static_cast<int>(header.height), static_cast<int>(header.width), CV_8UC4);
-  if (!png_image_finish_read(&header, nullptr, rgba.data, static_cast<int>(rgba.step), nullptr)) return {};
-  cv::Mat rgb;
-  cv::cvtColor(rgba, rgb, cv::COLOR_RGBA2RGB);
-  return rgb;
+  require_size(header.width, header.height);
+  const bool has_alpha = (header.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  header.format = has_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  cv::Mat image(static_cast<int>(header.height), static_cast<int>(header.width), has_alpha ? CV_8UC4 : CV_8UC3);
+  if (!png_image_finish_read(&header, nullptr, image.data, static_cast<int>(image.step), nullptr)) return {};
+  return image;
 }
 
 cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {
   const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
   const auto size = static_cast<unsigned long>(bytes.size());  // NOLINT(google-runtime-int): turbojpeg's type
   int width = 0, height = 0, subsampling = 0, color_space = 0;
-  if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &color_space) != 0 ||
-      int64_t{width} * height > kMaxPixels) {
+  if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &color_space) != 0)
     return {};
-  }
+  require_size(width, height);
   cv::Mat rgb(height, width, CV_8UC3);
   const int fault = tjDecompress2(decoder.get(), bytes.data(), size, rgb.data, width, static_cast<int>(rgb.step),
                                   height, TJPF_RGB, TJFLAG_ACCURATEDCT);
@@ -50,10 +47,8 @@ class NetpbmReader {
 
   cv::Mat read() {
     const int64_t width = number(), height = number(), max_value = number();
-    if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels / width || max_value <= 0 ||
-        max_value > 255) {
-      return {};
-    }
+    if (width <= 0 || height <= 0 || max_value <= 0 || max_value > 255) return {};
+    require_size(width, height);
     const bool is_text = kind_ < '5', is_grey = kind_ == '2' || kind_ == '5';
     if (!is_text && !rest_.empty()) rest_ = rest_.subspan(1);  // the single white space before the data
     cv::Mat image(static_cast<int>(height), static_cast<int>(width), is_grey ? CV_8UC1 : CV_8UC3);
@@ -96,19 +91,25 @@ class NetpbmReader {
 
 }  // namespace
 
+void require_size(int64_t width, int64_t height) {
+  if (width > kMaxImageSidePx || height > kMaxImageSidePx) throw ImageTooLarge(width, height);
+}
+
+std::string image_formats() { return "PNG, JPEG, BMP, TGA, TIFF, WebP, PPM or PGM"; }
+
 cv::Mat decode_texture(std::span<const uint8_t> bytes) {
-  constexpr std::array<uint8_t, 4> kPng{0x89, 'P', 'N', 'G'};
-  constexpr std::array<uint8_t, 3> kJpeg{0xff, 0xd8, 0xff};
-  const auto starts = [&](const auto& magic) {
-    return bytes.size() >= magic.size() && std::ranges::equal(bytes.first(magic.size()), magic);
-  };
-  if (starts(kPng)) return decode_png(bytes);
-  if (starts(kJpeg)) return decode_jpeg(bytes);
+  using namespace std::string_view_literals;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\x89PNG")) return decode_png(bytes);
+  if (text.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes);
+  if (text.starts_with("BM")) return decode_bmp(bytes);
+  if (text.starts_with("II*\0"sv) || text.starts_with("MM\0*"sv)) return decode_tiff(bytes);
+  if (text.starts_with("RIFF") && text.find("WEBP") == 8) return decode_webp(bytes);
   constexpr std::string_view kNetpbm = "2356";
-  if (bytes.size() > 2 && bytes[0] == 'P' && kNetpbm.find(static_cast<char>(bytes[1])) != std::string_view::npos) {
+  if (bytes.size() > 2 && bytes[0] == 'P' && kNetpbm.find(text[1]) != std::string_view::npos) {
     return NetpbmReader(bytes).read();
   }
-  return {};
+  return decode_tga(bytes);  // has no magic number
 }
 
 }  // namespace hedgehop::scenes::mesh

@@ -56,7 +56,7 @@ void read_texture(const std::filesystem::path& file) {
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
   const cv::Mat image = scenes::mesh::decode_texture(bytes);
   if (image.empty()) throw std::invalid_argument("no image");
-  if (image.type() != CV_8UC3) throw std::logic_error("not three bytes per pixel");
+  if (image.type() != CV_8UC3 && image.type() != CV_8UC4) throw std::logic_error("not three or four bytes per pixel");
 }
 
 void read_calibration(const std::filesystem::path& file) {

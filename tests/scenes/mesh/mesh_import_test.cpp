@@ -1,10 +1,8 @@
-#include "scenes/mesh/mesh_import.h"
+#include "tests/scenes/mesh/imported_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
@@ -16,29 +14,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using E = std::invalid_argument;
 
-class MeshImport : public testing::Test {
- protected:
-  void SetUp() override {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("mesh_import_") + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
-  static Scene imported(const ImportConfig& config) {
-    Scene scene;
-    scene.textures = std::vector<cv::Mat>{cv::Mat(64, 64, CV_8UC3, cv::Scalar(0, 0, 0))};
-    add_imports({config}, scene);
-    return scene;
-  }
-
-  std::filesystem::path folder_;
-};
+using MeshImport = ImportedFiles;
 
 // A quad 2 wide and 3 high, 1 in front of the model's origin (z = -1), y up, facing the origin.
 const std::string kQuad = R"(mtllib quad.mtl
@@ -152,19 +128,20 @@ TEST_F(MeshImport, ReadsGltf) {
   const Scene scene = imported({.file = file});
   Eigen::AlignedBox3f box;
   for (const Vertex& vertex : scene.meshes.at(0).vertices) box.extend(vertex.p_W);
-  EXPECT_LT((box.min() - Eigen::Vector3f(4, 0, -1)).norm(), 1e-5f);
-  EXPECT_LT((box.max() - Eigen::Vector3f(4, 1, 0)).norm(), 1e-5f);
+  EXPECT_LT((box.min() - Eigen::Vector3f(-4, -1, -1)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(-4, 0, 0)).norm(), 1e-5f);
 }
 
 TEST_F(MeshImport, ReportsTheReasonForUnreadableFiles) {
-  const auto refused = [](const std::string& file) { return [file] { imported({.file = file}); }; };
+  const auto refused = [this](const std::string& file) { return [this, file] { imported({.file = file}); }; };
   EXPECT_THAT(refused((folder_ / "none.obj").string()),
               ThrowsMessage<E>(HasSubstr("none.obj': there is no such file")));
   EXPECT_THAT(refused(write("broken.gltf", "{\"asset\": ")), ThrowsMessage<E>(HasSubstr("broken.gltf': ")));
   EXPECT_THAT(refused(write("notes.txt", "no mesh")), ThrowsMessage<E>(HasSubstr("notes.txt': ")));
   EXPECT_THAT(refused(write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), ThrowsMessage<E>(HasSubstr("empty.obj': ")));
   write("quad.mtl", "newmtl paint\nmap_Kd gone.png\n");
-  EXPECT_THAT(refused(write("quad.obj", kQuad)), ThrowsMessage<E>(HasSubstr("its image 'gone.png' cannot be read")));
+  EXPECT_THAT(refused(write("quad.obj", kQuad)),
+              ThrowsMessage<E>(HasSubstr("its image 'gone.png': there is no such file")));
 }
 
 }  // namespace

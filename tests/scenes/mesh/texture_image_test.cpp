@@ -1,7 +1,9 @@
 #include "scenes/mesh/mesh_import.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -31,11 +33,80 @@ cv::Mat as_opencv(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(DecodeTexture, EqualsOpenCvForPng) {
-  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4}) {
+  for (const int type : {CV_8UC1, CV_8UC3}) {
     const std::vector<uint8_t> bytes = encoded(".png", colors(type));
     const cv::Mat image = decode_texture(bytes);
     ASSERT_EQ(image.type(), CV_8UC3);
     EXPECT_EQ(cv::norm(image, as_opencv(bytes), cv::NORM_INF), 0.0) << type;
+  }
+}
+
+TEST(DecodeTexture, KeepsTheAlphaOfPngBmpAndWebp) {
+  const cv::Mat bgra = colors(CV_8UC4);
+  cv::Mat rgba;
+  cv::cvtColor(bgra, rgba, cv::COLOR_BGRA2RGBA);
+  EXPECT_EQ(cv::norm(decode_texture(encoded(".png", bgra)), rgba, cv::NORM_INF), 0.0);
+  // A BMP of 32 bits with a mask for alpha, from top to bottom.
+  const std::array<uint32_t, 31> header{0x4d42,       0,      0,    122,       108, 53, static_cast<uint32_t>(-37),
+                                        1 | 32 << 16, 3,      0,    0,         0,   0,  0,
+                                        0xff0000,     0xff00, 0xff, 0xff000000};
+  std::vector<uint8_t> bmp;
+  for (size_t i = 0; i < header.size(); ++i) {
+    for (int k = 0; k < (i == 0 ? 2 : 4); ++k) bmp.push_back(static_cast<uint8_t>(header[i] >> 8 * k));
+  }
+  bmp.resize(122);
+  bmp.insert(bmp.end(), bgra.datastart, bgra.dataend);
+  EXPECT_EQ(cv::norm(decode_texture(bmp), rgba, cv::NORM_INF), 0.0);
+}
+
+TEST(DecodeTexture, EqualsOpenCvForBmpTiffAndWebp) {
+  for (const char* kind : {".bmp", ".tiff", ".webp"}) {
+    for (const int type : {CV_8UC1, CV_8UC3}) {
+      std::vector<uint8_t> bytes;
+      cv::imencode(kind, colors(type), bytes, {cv::IMWRITE_WEBP_QUALITY, 101});  // above 100: without loss
+      const cv::Mat image = decode_texture(bytes);
+      ASSERT_EQ(image.type(), CV_8UC3) << kind;
+      EXPECT_EQ(cv::norm(image, as_opencv(bytes), cv::NORM_INF), 0.0) << kind << " " << type;
+    }
+  }
+}
+
+// A TGA image of 2 x 2 pixels: red, green; blue, white. @param kind  2 color, 10 color in runs.
+std::vector<uint8_t> tga(uint8_t kind, uint8_t descriptor, const std::vector<uint8_t>& data) {
+  std::vector<uint8_t> bytes{0, 0, kind, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, descriptor};
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  return bytes;
+}
+
+TEST(DecodeTexture, ReadsTgaOfBothOrigins) {
+  const std::vector<uint8_t> red{0, 0, 255}, green{0, 255, 0}, blue{255, 0, 0}, white{255, 255, 255};
+  const auto joined = [](std::initializer_list<std::vector<uint8_t>> parts) {
+    std::vector<uint8_t> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  };
+  const std::vector<uint8_t> from_top = tga(2, 0x20, joined({red, green, blue, white})),
+                             from_bottom = tga(2, 0, joined({blue, white, red, green})),
+                             in_runs = tga(10, 0x20, joined({{1}, red, green, {0x81}, blue}));
+  for (const auto& bytes : {from_top, from_bottom, in_runs}) {
+    const cv::Mat image = decode_texture(bytes);
+    ASSERT_EQ(image.size(), cv::Size(2, 2));
+    EXPECT_EQ(image.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 0, 0));
+    EXPECT_EQ(image.at<cv::Vec3b>(0, 1), cv::Vec3b(0, 255, 0));
+    EXPECT_EQ(image.at<cv::Vec3b>(1, 0), cv::Vec3b(0, 0, 255));
+  }
+  EXPECT_TRUE(decode_texture(tga(2, 0, red)).empty());
+  EXPECT_TRUE(decode_texture(tga(10, 0, {0x83, 1})).empty());
+}
+
+TEST(DecodeTexture, RefusesMoreThan8192Pixels) {
+  EXPECT_EQ(decode_texture(encoded(".png", cv::Mat(1, 8192, CV_8UC3, cv::Scalar(1, 2, 3)))).cols, 8192);
+  for (const char* kind : {".png", ".jpg", ".bmp", ".ppm", ".tiff", ".webp"}) {
+    const cv::Mat wide(1, 8193, CV_8UC3, cv::Scalar(1, 2, 3));
+    const std::vector<uint8_t> bytes = encoded(kind, wide);
+    EXPECT_THAT([&] { decode_texture(bytes); },
+                testing::ThrowsMessage<std::invalid_argument>("it has 8193 x 1 px; valid: at most 8192 x 8192"))
+        << kind;
   }
 }
 
@@ -70,9 +141,13 @@ TEST(DecodeTexture, IsEmptyForOtherData) {
   EXPECT_TRUE(decode_texture(std::span(png).first(4)).empty());
   EXPECT_TRUE(decode_texture(std::span(png).first(png.size() / 2)).empty());
   EXPECT_TRUE(decode_texture(std::span(jpeg).first(20)).empty());
-  EXPECT_TRUE(decode_texture(encoded(".bmp", colors(CV_8UC3))).empty());
-  for (const std::string text : {"P3", "P3 1 1 255\n9 8", "P3 -1 1 255 0", "P6 2 2 255\nabc",
-                                 "P3 1 1 99999999999 0 0 0", "P6 999999999 999999999 255\nabc", "P3 1 1 15 16 0 0"}) {
+  for (const char* kind : {".bmp", ".tiff", ".webp"}) {
+    const std::vector<uint8_t> bytes = encoded(kind, colors(CV_8UC3));
+    EXPECT_TRUE(decode_texture(std::span(bytes).first(bytes.size() / 2)).empty()) << kind;
+  }
+  EXPECT_TRUE(decode_texture(encoded(".jp2", colors(CV_8UC3))).empty());
+  for (const std::string text :
+       {"P3", "P3 1 1 255\n9 8", "P3 -1 1 255 0", "P6 2 2 255\nabc", "P3 1 1 99999999999 0 0 0", "P3 1 1 15 16 0 0"}) {
     EXPECT_TRUE(decode_texture({reinterpret_cast<const uint8_t*>(text.data()), text.size()}).empty()) << text;
   }
   // A header with a size of 4e18 pixels.

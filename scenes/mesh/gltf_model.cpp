@@ -1,0 +1,290 @@
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenes/mesh/gltf_file.h"
+#include "scenes/mesh/gltf_material.h"
+#include "scenes/mesh/mesh_reader.h"
+#include "scenes/mesh/model.h"
+
+namespace hedgehop::scenes::mesh {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Json = GltfFile::Json;
+
+constexpr size_t kMaxCorners = 3 * kMaxTriangles;
+// They are rendered, or have no effect on images.
+constexpr std::array<std::string_view, 11> kKnownExtensions{
+    "KHR_mesh_quantization",   "KHR_texture_transform",    "EXT_texture_webp",
+    "KHR_materials_ior",       "KHR_materials_specular",   "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_xmp_json_ld",
+    "KHR_lights_punctual",     "EXT_mesh_features"};
+
+void require_extensions(const Json& json, std::set<std::string>& unrendered) {
+  const auto is_known = [](const std::string& name) {
+    return std::ranges::find(kKnownExtensions, name) != kKnownExtensions.end();
+  };
+  for (const std::string& name : json.value("extensionsRequired", std::vector<std::string>{})) {
+    if (is_known(name) || name.starts_with("KHR_materials_")) continue;
+    fail_gltf("it requires the extension '" + name +
+              "'; valid: KHR_mesh_quantization, KHR_texture_transform, EXT_texture_webp, KHR_materials_*");
+  }
+  for (const std::string& name : json.value("extensionsUsed", std::vector<std::string>{})) {
+    if (!is_known(name)) unrendered.insert("extension " + name);
+  }
+}
+
+Eigen::Affine3d transform_of(const Json& node) {
+  if (node.contains("matrix")) {
+    const auto m = node["matrix"].get<std::array<double, 16>>();
+    return Eigen::Affine3d(Eigen::Map<const Eigen::Matrix4d>(m.data()));  // both are column-major
+  }
+  const auto t = node.value("translation", std::array<double, 3>{0.0, 0.0, 0.0});
+  const auto q = node.value("rotation", std::array<double, 4>{0.0, 0.0, 0.0, 1.0});
+  const auto s = node.value("scale", std::array<double, 3>{1.0, 1.0, 1.0});
+  return Eigen::Translation3d(t[0], t[1], t[2]) * Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized() *
+         Eigen::Scaling(s[0], s[1], s[2]);
+}
+
+// Reads the triangles of a file, in the frame of the scene, with one part for each material.
+class GltfModel {
+ public:
+  GltfModel(const std::filesystem::path& file, const ModelOrigin& origin) : file_(file) {
+    const Eigen::Matrix3d level = level_axes(origin.z_is_up, true);
+    const Vector3d& o = origin.east_north_up;
+    origin_ = level.transpose() * Vector3d(o.y(), o.x(), -o.z());
+    require_extensions(file_.json(), model_.unrendered);
+    if (file_.json().contains("animations")) model_.unrendered.insert("animations");
+    if (file_.json().contains("skins")) model_.unrendered.insert("skins");
+  }
+
+  Model read() {
+    const size_t materials = file_.length("materials");
+    GltfMaterials reader(file_, model_.unrendered);
+    for (size_t i = 0; i <= materials; ++i) {  // the last one is the default
+      materials_.push_back(reader.read(i));
+      model_.materials.push_back(materials_.back().look);
+    }
+    parts_.resize(materials_.size());
+    read_nodes();
+    for (Part& part : parts_) {
+      if (!part.body.faces.empty()) model_.parts.push_back(std::move(part));
+    }
+    model_.files = file_.files();
+    model_.front_is_z = model_.winding_is_front = true;
+    return std::move(model_);
+  }
+
+ private:
+  /// A list of triangles of one material in the frame of its mesh.
+  struct Primitive {
+    size_t material = 0;
+    std::vector<Vector3d> corners, normals;
+    std::vector<Eigen::Vector2f> uvs;
+    std::vector<Vector3f> colors;
+    std::vector<std::array<uint32_t, 3>> faces;
+  };
+
+  std::vector<size_t> roots() const {
+    const Json& json = file_.json();
+    if (json.contains("scenes")) {
+      const Json& scene = file_.element("scenes", GltfFile::count_at(json, "scene", 0));
+      return scene.value("nodes", std::vector<size_t>{});
+    }
+    std::vector<bool> is_child(file_.length("nodes"));
+    for (size_t i = 0; i < is_child.size(); ++i) {
+      for (const size_t child : file_.element("nodes", i).value("children", std::vector<size_t>{})) {
+        if (child < is_child.size()) is_child[child] = true;
+      }
+    }
+    std::vector<size_t> found;
+    for (size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) found.push_back(i);
+    }
+    return found;
+  }
+
+  void read_nodes() {
+    std::vector<std::pair<size_t, Eigen::Affine3d>> open;
+    const auto add = [&](const std::vector<size_t>& nodes, const Eigen::Affine3d& parent) {
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.emplace_back(*node, parent);
+    };
+    std::vector<bool> is_read(file_.length("nodes"));
+    add(roots(), Eigen::Affine3d(Eigen::Translation3d(-origin_)));
+    while (!open.empty()) {
+      const auto [index, parent] = open.back();
+      open.pop_back();
+      const Json& node = file_.element("nodes", index);
+      if (is_read[index]) fail_gltf("its nodes[" + std::to_string(index) + "] has two parents");
+      is_read[index] = true;
+      const Eigen::Affine3d here = parent * transform_of(node);
+      if (node.contains("mesh")) add_mesh(GltfFile::count_at(node, "mesh"), here);
+      if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
+        model_.unrendered.insert("instances");
+      add(node.value("children", std::vector<size_t>{}), here);
+    }
+  }
+
+  void add_mesh(size_t index, const Eigen::Affine3d& transform) {
+    const auto [at, is_new] = meshes_.try_emplace(index);
+    if (is_new) {
+      for (const Json& primitive : file_.element("meshes", index).at("primitives")) {
+        if (std::optional<Primitive> triangles = read_primitive(primitive)) at->second.push_back(*std::move(triangles));
+      }
+    }
+    for (const Primitive& primitive : at->second) add_primitive(primitive, transform);
+  }
+
+  // Appends triangles to the part of their material. A transform that mirrors reverses their winding.
+  void add_primitive(const Primitive& primitive, const Eigen::Affine3d& transform) {
+    Part& part = parts_[primitive.material];
+    part.material = primitive.material;
+    corners_ += primitive.corners.size();
+    triangles_ += primitive.faces.size();
+    if (triangles_ > kMaxTriangles) fail_gltf("it has more than " + std::to_string(kMaxTriangles) + " triangles");
+    if (corners_ > kMaxCorners) fail_gltf("it has more than " + std::to_string(kMaxCorners) + " corners");
+    const auto first = static_cast<uint32_t>(part.body.corners.size());
+    const Eigen::Matrix3d linear = transform.linear();
+    const bool mirrors = linear.determinant() < 0.0;
+    Eigen::Matrix3d of_normals = linear.inverse().transpose();
+    if (!of_normals.allFinite()) of_normals = linear;
+    for (const Vector3d& corner : primitive.corners) part.body.corners.push_back(transform * corner);
+    for (const Vector3d& normal : primitive.normals) part.normals.push_back((of_normals * normal).normalized());
+    part.uvs.insert(part.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+    part.colors.insert(part.colors.end(), primitive.colors.begin(), primitive.colors.end());
+    for (auto face : primitive.faces) {
+      for (uint32_t& corner : face) corner += first;
+      if (mirrors) std::swap(face[0], face[1]);
+      part.body.faces.push_back(face);
+    }
+  }
+
+  std::optional<Primitive> read_primitive(const Json& json) {
+    constexpr size_t kTriangles = 4, kFan = 6;  // below: points and lines; between: strips
+    const size_t mode = GltfFile::count_at(json, "mode", kTriangles);
+    if (mode > kFan) fail_gltf("a primitive has the mode " + std::to_string(mode) + "; valid: 0 to 6");
+    if (mode < kTriangles) {
+      model_.unrendered.insert("points and lines");
+      return std::nullopt;
+    }
+    if (json.contains("targets")) model_.unrendered.insert("morph targets");
+    const Json& attributes = json.at("attributes");
+    if (!attributes.contains("POSITION")) return std::nullopt;
+    Primitive result;
+    result.material = std::min(GltfFile::count_at(json, "material", materials_.size()), materials_.size() - 1);
+    result.corners = vectors(attributes, "POSITION");
+    std::vector<uint32_t> indices(result.corners.size());
+    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
+    if (json.contains("indices")) indices = file_.indices(GltfFile::count_at(json, "indices"));
+    for (const uint32_t index : indices) {
+      if (index >= result.corners.size()) fail_gltf("an index is out of range");
+    }
+    add_faces(indices, mode == kTriangles, mode == kFan, result);
+    read_look(attributes, result);
+    return result;
+  }
+
+  static void add_faces(const std::vector<uint32_t>& indices, bool is_list, bool is_fan, Primitive& result) {
+    for (size_t i = 0; i + 2 < indices.size(); i += is_list ? 3 : 1) {
+      const uint32_t a = indices[is_fan ? 0 : i], b = indices[i + 1], c = indices[i + 2];
+      const bool is_odd = !is_list && !is_fan && i % 2 == 1;
+      result.faces.push_back(is_odd ? std::array{a, c, b} : std::array{a, b, c});
+    }
+  }
+
+  // Reads normals, image coordinates and colors. Without normals, the faces are flat.
+  void read_look(const Json& attributes, Primitive& result) {
+    const GltfMaterial& material = materials_[result.material];
+    const std::string uvs = "TEXCOORD_" + std::to_string(material.uv_set);
+    const bool is_flat = !attributes.contains("NORMAL");
+    if (!is_flat) result.normals = vectors(attributes, "NORMAL");
+    result.uvs.assign(result.corners.size(), Eigen::Vector2f::Zero());
+    if (material.look.image && attributes.contains(uvs)) {
+      const GltfNumbers read = numbers(attributes, uvs, 2, result.corners.size());
+      for (size_t i = 0; i < result.uvs.size(); ++i) {
+        result.uvs[i] = material.uv_transform * Eigen::Vector2f(read.values[2 * i], read.values[2 * i + 1]);
+      }
+    }
+    result.colors.assign(result.corners.size(), material.look.color);
+    if (attributes.contains("COLOR_0")) read_colors(attributes, material.look, result);
+    if (is_flat) flatten(result);
+  }
+
+  void read_colors(const Json& attributes, const Material& look, Primitive& result) {
+    const GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, "COLOR_0"));
+    if (read.components < 3 || read.count() != result.corners.size())
+      fail_gltf("the attribute COLOR_0 has a wrong size");
+    for (size_t i = 0; i < result.colors.size(); ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        const float value = read.values[read.components * i + k];
+        const float linear = value > 0.0f ? std::min(value, 1.0f) : 0.0f;  // 0 also for NaN
+        if (look.image && linear < 1.0f) model_.unrendered.insert("vertex colors on an image ('" + look.name + "')");
+        const auto channel = static_cast<Eigen::Index>(k);
+        result.colors[i][channel] = srgb_of_linear(linear * look.tint[channel]);
+      }
+    }
+  }
+
+  // Gives each triangle corners of its own, with its normal.
+  static void flatten(Primitive& p) {
+    Primitive flat;
+    flat.material = p.material;
+    for (const auto& face : p.faces) {
+      const Vector3d across = (p.corners[face[1]] - p.corners[face[0]]).cross(p.corners[face[2]] - p.corners[face[0]]);
+      const auto first = static_cast<uint32_t>(flat.corners.size());
+      for (const uint32_t i : face) {
+        flat.corners.push_back(p.corners[i]);
+        flat.normals.push_back(across.normalized());
+        flat.uvs.push_back(p.uvs[i]);
+        flat.colors.push_back(p.colors[i]);
+      }
+      flat.faces.push_back({first, first + 1, first + 2});
+    }
+    p = std::move(flat);
+  }
+
+  GltfNumbers numbers(const Json& attributes, const std::string& name, size_t components, size_t count) const {
+    GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, name.c_str()));
+    if (read.components != components || read.count() != count)
+      fail_gltf("the attribute " + name + " has a wrong size");
+    return read;
+  }
+
+  std::vector<Vector3d> vectors(const Json& attributes, const char* name) const {
+    const GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, name));
+    const size_t count =
+        GltfFile::count_at(file_.element("accessors", GltfFile::count_at(attributes, "POSITION")), "count");
+    if (read.components != 3 || read.count() != count)
+      fail_gltf(std::string("the attribute ") + name + " has a wrong size");
+    std::vector<Vector3d> result(count);
+    for (size_t i = 0; i < count; ++i) {
+      result[i] = Eigen::Map<const Vector3f>(read.values.data() + 3 * i).cast<double>();
+    }
+    return result;
+  }
+
+  GltfFile file_;
+  Vector3d origin_;
+  Model model_;
+  std::vector<GltfMaterial> materials_;
+  std::vector<Part> parts_;
+  std::map<size_t, std::vector<Primitive>> meshes_;
+  size_t triangles_ = 0, corners_ = 0;
+};
+
+}  // namespace
+
+Model read_gltf(const std::filesystem::path& file, const ModelOrigin& origin) { return GltfModel(file, origin).read(); }
+
+}  // namespace hedgehop::scenes::mesh

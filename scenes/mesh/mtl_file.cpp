@@ -1,0 +1,253 @@
+#include "scenes/mesh/mtl_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "scenes/mesh/image_file.h"
+#include "scenes/mesh/mesh_reader.h"
+
+namespace hedgehop::scenes::mesh {
+
+namespace {
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Removes the first word of a text and returns it.
+std::string_view take_word(std::string_view& text) {
+  text = trimmed(text);
+  const auto end = std::ranges::find_if(text, is_space);
+  const std::string_view word = text.substr(0, static_cast<size_t>(end - text.begin()));
+  text = trimmed(text.substr(word.size()));
+  return word;
+}
+
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+// Calls `visit` with the keyword and the rest of each line. A backslash at the end of a line continues it.
+template <class Visit>
+void for_each_line(std::string_view text, const Visit& visit) {
+  std::string joined;
+  while (!text.empty()) {
+    const size_t end = text.find('\n');
+    std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.ends_with('\\')) {
+      joined += std::string(line.substr(0, line.size() - 1)) + ' ';
+      continue;
+    }
+    if (!joined.empty()) {
+      joined += line;
+      line = joined;
+    }
+    if (!line.starts_with('#')) {
+      const std::string_view keyword = take_word(line);
+      visit(keyword, line);
+    }
+    joined.clear();
+  }
+}
+
+std::string lower(std::string_view word) {
+  std::string result(word);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+// Reads up to `count` numbers.
+std::vector<double> take_numbers(std::string_view& rest, size_t count) {
+  std::vector<double> numbers;
+  while (numbers.size() < count) {
+    std::string_view after = rest;
+    const std::optional<double> number = number_of(take_word(after));
+    if (!number || after.empty()) break;  // a file's name comes last
+    numbers.push_back(*number);
+    rest = after;
+  }
+  return numbers;
+}
+
+// The value of a statement such as map_Kd: options, then the name of an image.
+class ImageStatement {
+ public:
+  ImageStatement(std::string_view rest, MtlMaterial& material, std::set<std::string>& unrendered)
+      : material_(material), unrendered_(unrendered) {
+    while (rest.starts_with('-')) {
+      std::string_view after = rest;
+      if (!read_option(lower(take_word(after)), after)) break;
+      rest = after;
+    }
+    name = std::string(rest);
+  }
+
+  std::string name;
+
+ private:
+  // Returns whether this is an option.
+  bool read_option(const std::string& option, std::string_view& rest) {
+    if (option == "-o" || option == "-s" || option == "-t") {
+      const std::vector<double> numbers = take_numbers(rest, 3);
+      if (option == "-t") unrendered_.insert("MTL option -t");
+      Eigen::Vector2f& target = option == "-o" ? material_.uv_offset : material_.uv_scale;
+      for (size_t k = 0; k < std::min<size_t>(numbers.size(), 2) && option != "-t"; ++k) {
+        target[static_cast<Eigen::Index>(k)] = static_cast<float>(numbers[k]);
+      }
+      return true;
+    }
+    if (option == "-clamp") {
+      if (lower(take_word(rest)) == "on") material_.look.wrap = {Wrap::clamp, Wrap::clamp};
+      return true;
+    }
+    if (option == "-mm") {
+      const std::vector<double> numbers = take_numbers(rest, 2);
+      if (numbers != std::vector{0.0, 1.0}) unrendered_.insert("MTL option -mm");
+      return true;
+    }
+    constexpr std::array<std::string_view, 7> kWithoutEffect{"-blendu", "-blendv", "-cc",  "-texres",
+                                                             "-boost",  "-bm",     "-type"};
+    if (option == "-imfchan") unrendered_.insert("MTL option -imfchan");
+    if (option != "-imfchan" && std::ranges::find(kWithoutEffect, option) == kWithoutEffect.end()) return false;
+    take_word(rest);
+    return true;
+  }
+
+  MtlMaterial& material_;
+  std::set<std::string>& unrendered_;
+};
+
+void set_color(std::string_view rest, Material& look) {
+  std::vector<double> values;
+  while (values.size() < 3) {
+    const std::optional<double> value = number_of(take_word(rest));
+    if (!value) break;
+    values.push_back(std::clamp(*value, 0.0, 1.0));
+  }
+  if (values.empty()) return;
+  for (size_t k = 0; k < 3; ++k) {
+    look.color[static_cast<Eigen::Index>(k)] = static_cast<float>(values[std::min(k, values.size() - 1)]);
+  }
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void read_mtl(const std::filesystem::path& file, const std::filesystem::path& obj_folder, ObjMaterials& found) {
+  constexpr float kHalf = 0.5f;
+  constexpr float kDefault = 0.6f;  // as the importer's
+  MtlMaterial unnamed;
+  MtlMaterial* material = &unnamed;
+  for_each_line(text_of(file), [&](std::string_view keyword, std::string_view rest) {
+    const std::string key = lower(keyword);
+    Material& look = material->look;
+    const auto image = [&] {
+      const ImageStatement statement(rest, *material, found.unrendered);
+      return ImageSource{.name = statement.name, .folders = {file.parent_path(), obj_folder}};
+    };
+    const auto transparent = [&] { found.unrendered.insert("transparency of material '" + look.name + "'"); };
+    if (key == "newmtl") {
+      material = &found.by_name[std::string(rest)];
+      *material = {};
+      material->look.name = std::string(rest);
+      material->look.color.setConstant(kDefault);
+    } else if (key == "kd") {
+      set_color(rest, look);
+    } else if (key == "map_kd") {
+      look.image = image();
+    } else if (key == "map_d") {
+      look.opacity = image();
+      look.alpha_cutoff = kHalf;
+    } else if (key == "d" || key == "tr") {
+      const double opaque = key == "d" ? 1.0 : 0.0;
+      if (number_of(take_word(rest)).value_or(opaque) != opaque) transparent();
+    } else if (key == "map_bump" || key == "bump" || key == "norm" || key == "disp") {
+      found.unrendered.insert("bump maps");
+    } else if (key == "map_ke") {
+      found.unrendered.insert("emission");
+    } else if (key == "decal") {
+      found.unrendered.insert("decals");
+    }
+  });
+}
+
+// Returns the material files that a statement names: one name with spaces, or several.
+std::vector<std::string> libraries_of(std::string_view rest, const std::filesystem::path& folder) {
+  if (rest.empty() || file_named(std::string(rest), {folder}, false)) return {std::string(rest)};
+  const std::string_view whole = rest;
+  std::vector<std::string> names;
+  while (!rest.empty()) names.emplace_back(take_word(rest));
+  const bool any =
+      std::ranges::any_of(names, [&](const auto& name) { return file_named(name, {folder}, false).has_value(); });
+  return any ? names : std::vector{std::string(whole)};
+}
+
+}  // namespace
+
+ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view text) {
+  ObjMaterials found;
+  std::string libraries, current;
+  std::set<std::string> used;
+  const std::filesystem::path folder = obj.parent_path();
+  for_each_line(text, [&](std::string_view keyword, std::string_view rest) {
+    if (keyword == "usemtl") current = std::string(rest);
+    if (keyword == "f" && !current.empty()) used.insert(current);
+    if (keyword != "mtllib") return;
+    for (const std::string& name : libraries_of(rest, folder)) {
+      const std::optional<std::filesystem::path> file = file_named(name, {folder}, false);
+      if (!file) throw std::invalid_argument("its material file '" + name + "': there is no such file");
+      if (!may_be_read(*file))
+        throw std::invalid_argument("its file '" + file->string() + "' is not a regular file of at most 64 MB");
+      read_mtl(*file, folder, found);
+      found.files.insert(file->lexically_normal());
+      libraries += (libraries.empty() ? "'" : ", '") + name + "'";
+    }
+  });
+  for (const std::string& name : used) {
+    // Exporters write these names for faces without a material.
+    if (found.by_name.contains(name) || name == "None" || name == "(null)") continue;
+    throw std::invalid_argument("its material '" + name + "' is in no material file; " +
+                                (libraries.empty() ? "it names none (mtllib)" : "it names " + libraries));
+  }
+  return found;
+}
+
+std::string subtracted(std::string_view obj, const Eigen::Vector3d& origin) {
+  std::string result;
+  for_each_line(obj, [&](std::string_view keyword, std::string_view rest) {
+    result += keyword;
+    for (int k = 0; keyword == "v" && k < 3; ++k) {
+      const std::optional<double> value = number_of(take_word(rest));
+      if (!value) throw std::invalid_argument("a vertex has fewer than three coordinates");
+      std::array<char, 32> digits{};
+      std::snprintf(digits.data(), digits.size(), " %.9g", *value - origin[k]);
+      result += digits.data();
+    }
+    result += ' ';
+    result += rest;
+    result += '\n';
+  });
+  return result;
+}
+
+}  // namespace hedgehop::scenes::mesh

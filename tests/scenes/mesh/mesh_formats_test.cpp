@@ -1,0 +1,126 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/mesh/imported_files.h"
+
+namespace hedgehop::scenes::mesh {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using E = std::invalid_argument;
+
+using MeshFormats = ImportedFiles;
+
+Eigen::AlignedBox3f bounds(const Scene& scene) {
+  Eigen::AlignedBox3f box;
+  for (const Vertex& vertex : scene.meshes.at(0).vertices) box.extend(vertex.p_W);
+  return box;
+}
+
+// A cube from -1 to 1 around a center. @param inward  the orientation of its faces. @param first  its first corner.
+std::string cube(const Vector3d& center, double half, bool inward, int first) {
+  std::string text;
+  for (int k = 0; k < 8; ++k) {
+    text += "v";
+    for (const int axis : {0, 1, 2}) text += " " + std::to_string(center[axis] + ((k >> axis & 1) != 0 ? half : -half));
+    text += "\n";
+  }
+  for (std::array<int, 4> face :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    if (inward) std::swap(face[1], face[3]);
+    text += "f";
+    for (const int corner : face) text += " " + std::to_string(corner + first);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(MeshFormats, TheOrientationIsThatOfEachConnectedBody) {
+  const std::string file = write("cubes.obj", cube({-3, 0, 0}, 1, false, 1) + cube({3, 0, 0}, 1, true, 9));
+  const Scene scene = imported({.file = file});
+  for (const double east_m : {-3.0, 3.0}) {
+    EXPECT_NEAR(cast(scene, {-10.0, east_m + 0.1, 0.2}, Vector3d::UnitX()).distance_m, 9.0, 1e-5) << east_m;
+  }
+  EXPECT_EQ(scene.meshes.at(0).indices.size(), 2u * 36u);
+}
+
+TEST_F(MeshFormats, TheWallOfACavityStaysVisibleFromInside) {
+  const std::string file = write("room.obj", cube({0, 0, 0}, 3, false, 1) + cube({0, 0, 0}, 2, true, 9));
+  const Scene scene = imported({.file = file});
+  EXPECT_NEAR(cast(scene, {0.0, 0.1, 0.2}, Vector3d::UnitX()).distance_m, 2.0, 1e-5);
+  EXPECT_NEAR(cast(scene, {-10.0, 0.1, 0.2}, Vector3d::UnitX()).distance_m, 7.0, 1e-5);
+}
+
+TEST_F(MeshFormats, SubtractsTheOriginOfGeoreferencedCoordinatesInDoublePrecision) {
+  const Vector3d p(448262.25, 5262012.75, 512.4);
+  const ImportConfig config{.file = write("utm.obj", cube(p, 1.5, false, 1)),
+                            .north_m = 9.0,
+                            .origin_ENU = {448260.0, 5262010.0, 510.0},
+                            .up = ImportConfig::Up::z};
+  const Eigen::AlignedBox3f box = bounds(imported(config));
+  // North 9 + 2.75, east 2.25, up 2.4, each +- 1.5. A float of 5,262,012 has steps of 0.5 m.
+  constexpr float kRounding = 1e-5f;
+  EXPECT_LT((box.min() - Eigen::Vector3f(10.25f, 0.75f, -3.9f)).norm(), kRounding);
+  EXPECT_LT((box.max() - Eigen::Vector3f(13.25f, 3.75f, -0.9f)).norm(), kRounding);
+  EXPECT_THAT([&] { imported({.file = config.file, .up = ImportConfig::Up::z}); },
+              ThrowsMessage<E>(HasSubstr("it has corners farther than 100 km from the origin; 'origin' can be")));
+}
+
+TEST_F(MeshFormats, ReadsStl) {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 2 0 1\nvertex 0 3 1\nendloop\nendfacet\n";
+  const std::string file = write("a.stl", "solid a\n" + facet + "endsolid a\n");
+  const Eigen::AlignedBox3f box = bounds(imported({.file = file, .up = ImportConfig::Up::z}));
+  EXPECT_LT((box.min() - Eigen::Vector3f(0, 0, -1)).norm(), 1e-6f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(3, 2, -1)).norm(), 1e-6f);
+}
+
+TEST_F(MeshFormats, ReadsPlyWithItsColors) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string data = "-1 -1 0 255 0 0\n1 -1 0 255 0 0\n0 2 0 0 0 255\n3 0 1 2\n";
+  const Scene scene = imported({.file = write("a.ply", header + data)});
+  EXPECT_EQ(cast(scene, {-10.0, 0.0, 0.98}, Vector3d::UnitX()).color, cv::Vec3b(255, 0, 0));
+  EXPECT_EQ(cast(scene, {-10.0, 0.0, -1.95}, Vector3d::UnitX()).color, cv::Vec3b(0, 0, 255));
+  const std::string empty_face = header + data.substr(0, data.rfind("3 0 1 2")) + "0\n";
+  EXPECT_THAT([&] { imported({.file = write("empty.ply", empty_face)}); }, ThrowsMessage<E>(HasSubstr("empty.ply': ")));
+  const std::string vast = header.substr(0, header.find("vertex 3")) + "vertex 4000000000" +
+                           header.substr(header.find("vertex 3") + 8) + data;
+  EXPECT_THAT([&] { imported({.file = write("vast.ply", vast)}); },
+              ThrowsMessage<E>(HasSubstr("it has fewer bytes than elements")));
+}
+
+// A triangle from (0, 0, 100) to (200, 0, 100) and (0, 300, 100), z up, in cm.
+const std::string kCollada = R"(<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="0.01" name="centimeter"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g" name="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 100 200 0 100 0 300 100</float_array><technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s" name="s"><node id="n" name="n"><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+)";
+
+TEST_F(MeshFormats, ReadsColladaWithItsUnitAndAxis) {
+  const Eigen::AlignedBox3f box = bounds(imported({.file = write("a.dae", kCollada)}));
+  // 2 m east, 3 m north, 1 m up.
+  EXPECT_LT((box.min() - Eigen::Vector3f(0, 0, -1)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(3, 2, -1)).norm(), 1e-5f);
+  std::string deep = kCollada;
+  for (int i = 0; i < 1000; ++i) deep += "<node>";
+  EXPECT_THAT([&] { imported({.file = write("deep.dae", deep)}); },
+              ThrowsMessage<E>(HasSubstr("its XML is nested deeper than 200")));
+  EXPECT_THAT([&] { imported({.file = write("empty.dae", "<?xml version=\"1.0\"?><COLLADA/>")}); },
+              ThrowsMessage<E>(HasSubstr("empty.dae': ")));
+}
+
+}  // namespace
+}  // namespace hedgehop::scenes::mesh
