@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/generators.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace CLI {
@@ -249,6 +250,9 @@ inline LoadedScenario load(const ScenarioOptions& options) {
 
 /// Prints one line for each camera whose image has black pixels because the polynomial of its lens turns over.
 void print_black_pixels(const RigConfig& rig);
+
+/// Prints one line for each imported mesh with features that are not rendered, or images that are reduced.
+void print_import_limits(const scenes::SceneConfig& config);
 
 /// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the
 /// working folder, otherwise from those of the installed program. Throws InputError that names the folder if there are

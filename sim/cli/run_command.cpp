@@ -101,7 +101,10 @@ int run(const RunOptions& options) {
   if (options.worker_of != 0) die_with(static_cast<pid_t>(options.worker_of));
   LoadedScenario loaded = load(options.scenario);
   if (options.no_video) loaded.scenario.film.enabled = false;
-  if (options.worker_of == 0) print_black_pixels(loaded.scenario.rig);
+  if (options.worker_of == 0) {
+    print_black_pixels(loaded.scenario.rig);
+    print_import_limits(loaded.scenario.scene);
+  }
   const Scenario scenario = loaded.scenario;
   const Inputs inputs = loaded.inputs;
   const std::filesystem::path out =

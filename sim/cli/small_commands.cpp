@@ -3,7 +3,10 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <variant>
 
+#include "scenes/generators.h"
+#include "scenes/mesh/mesh_import.h"
 #include "sim/batch/flight_table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
@@ -40,6 +43,16 @@ void print_black_pixels(const RigConfig& rig) {
         "black\n",
         camera.role, 100.0 * share));
   }
+}
+
+void print_import_limits(const scenes::SceneConfig& config) {
+  const auto print = [](const auto& world) {
+    if (world.added.imports.empty()) return;
+    scenes::Scene scene;
+    scene.textures = scenes::TextureList(static_cast<int>(world.texture_size_px));
+    for (const std::string& line : scenes::mesh::add_imports(world.added.imports, scene)) notice(line + "\n");
+  };
+  std::visit(print, config);
 }
 
 int list(const std::string& topic) {
