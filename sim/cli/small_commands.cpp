@@ -49,7 +49,9 @@ void print_import_limits(const scenes::SceneConfig& config) {
   const auto print = [](const auto& world) {
     if (world.added.imports.empty()) return;
     scenes::Scene scene;
-    scene.textures = scenes::TextureList(static_cast<int>(world.texture_size_px));
+    if constexpr (requires { world.texture_size_px; }) {
+      scene.textures = scenes::TextureList(static_cast<int>(world.texture_size_px));
+    }
     for (const std::string& line : scenes::mesh::add_imports(world.added.imports, scene)) notice(line + "\n");
   };
   std::visit(print, config);
