@@ -68,7 +68,9 @@ TEST(EnforcedBounds, OfScenes) {
     constexpr int64_t kLargestPx = 2048, kNoPowerOfTwo = 2047;
     std::visit(
         [&](auto& chosen) {
-          if (key != "texture_size" || chosen.texture_size_px == kLargestPx) chosen.texture_size_px = kNoPowerOfTwo;
+          if constexpr (requires { chosen.texture_size_px; }) {
+            if (key != "texture_size" || chosen.texture_size_px == kLargestPx) chosen.texture_size_px = kNoPowerOfTwo;
+          }
         },
         config);
     scenes::make_scene(config, 1);
