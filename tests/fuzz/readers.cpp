@@ -13,6 +13,7 @@
 
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
+#include "scenes/mesh/texture_image.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
@@ -54,7 +55,12 @@ void read_mesh(const std::filesystem::path& file) {
 void read_texture(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
-  const cv::Mat image = scenes::mesh::decode_texture(bytes);
+  cv::Mat image;
+  try {
+    image = scenes::mesh::decode_texture(bytes);
+  } catch (const scenes::mesh::ImageTooLarge& fault) {
+    throw std::invalid_argument(fault.what());
+  }
   if (image.empty()) throw std::invalid_argument("no image");
   if (image.type() != CV_8UC3 && image.type() != CV_8UC4) throw std::logic_error("not three or four bytes per pixel");
 }
