@@ -104,7 +104,7 @@ class Images(unittest.TestCase):
         self.assertEqual(asked.result()["trajectory_hash"], city().run()["trajectory_hash"])
 
     def test_images_from_chosen_poses_are_those_of_the_flight(self):
-        sim = city()
+        sim = hedgehop.Simulation(CITY, set={**SHORT, "rig.sensor": {}})  # no exposure time, in which the vehicle moves
         for _ in range(5):
             sim.step()
         truth = sim.truth
@@ -116,7 +116,7 @@ class Images(unittest.TestCase):
         self.assertGreater(np.mean(same), 0.998)  # rounding of the quaternion moves an edge
         flow = np.array(sim.flow_between("front", pose, (sim.truth.p_WB_m, sim.truth.q_WB)))
         self.assertGreater(np.nanmax(np.abs(flow)), 0.0)
-        self.assertEqual(np.nanmax(np.abs(sim.flow_between("front", pose, pose))), 0.0)
+        self.assertLess(np.nanmax(np.abs(sim.flow_between("front", pose, pose))), 1e-9)
         with self.assertRaisesRegex(ValueError, "length 1"):
             sim.image_from("front", "grey", (0, 0, -10), (1, 1, 0, 0))
 
