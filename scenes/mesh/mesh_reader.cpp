@@ -212,13 +212,25 @@ void require_bounded(const aiScene& model) {
 
 }  // namespace
 
+namespace {
+
+/// Returns the importer's message, in plain words for files without faces.
+std::string cause_of(const std::string& message) {
+  for (const char* no_faces : {"aiScene::mNumMeshes is 0", "contains no faces", "is a POINT"}) {
+    if (message.find(no_faces) != std::string::npos) return "it has no triangles";
+  }
+  return message;
+}
+
+}  // namespace
+
 const aiScene& read_mesh(const std::filesystem::path& mesh, const std::string& text, Assimp::Importer& importer,
                          std::set<std::filesystem::path>* opened) {
   forget_other_formats(importer, suffix_of(mesh));
   importer.SetIOHandler(new GuardedFiles(mesh.string(), text, opened));  // the importer deletes it
   const aiScene* const model = importer.ReadFile(mesh.string(), aiProcess_ValidateDataStructure);
   if (!model || !model->mRootNode || (model->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
-    throw std::invalid_argument(importer.GetErrorString());
+    throw std::invalid_argument(cause_of(importer.GetErrorString()));
   }
   require_bounded(*model);
   return *model;
