@@ -85,7 +85,7 @@ struct CellRange {
   int first_column, last_column, first_row, last_row;  ///< half open
 };
 
-/// Returns the cells that a triangle covers, at least one.
+/// Returns the cells that a triangle covers, with a minimum of one in each direction.
 CellRange range_of(const Polygon& polygon, int count) {
   Eigen::AlignedBox2f box;
   for (const Vertex& vertex : polygon) box.extend(vertex.uv);
@@ -167,11 +167,11 @@ Triangles clamped(const Triangles& triangles, int axis, int size_px) {
   Triangles result;
   for (size_t f = 0; f < triangles.faces.size(); ++f) {
     const Polygon whole = polygon_of(triangles, f);
-    const auto [least, most] = std::ranges::minmax(whole, {}, [&](const Vertex& v) { return v.uv[axis]; });
+    const auto [lowest, highest] = std::ranges::minmax(whole, {}, [&](const Vertex& v) { return v.uv[axis]; });
     Polygon before, inside, after;
-    if (least.uv[axis] < 0.0f) before = part_beyond(whole, axis, 0.0f, -1.0f);
-    if (most.uv[axis] > 1.0f) after = part_beyond(whole, axis, 1.0f, 1.0f);
-    if (most.uv[axis] >= 0.0f && least.uv[axis] <= 1.0f) {
+    if (lowest.uv[axis] < 0.0f) before = part_beyond(whole, axis, 0.0f, -1.0f);
+    if (highest.uv[axis] > 1.0f) after = part_beyond(whole, axis, 1.0f, 1.0f);
+    if (highest.uv[axis] >= 0.0f && lowest.uv[axis] <= 1.0f) {
       inside = part_beyond(part_beyond(whole, axis, 0.0f, 1.0f), axis, 1.0f, -1.0f);
     }
     for (Polygon* const part : {&before, &inside, &after}) {

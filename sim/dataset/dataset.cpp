@@ -20,6 +20,8 @@
 #include "sim/record/labels_file.h"
 #include "sim/record/table.h"
 #include "sim/scenario/calibration.h"
+#include "sim/scenario/flight_parts.h"
+#include "sim/scenario/inputs.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -51,7 +53,15 @@ std::string request_json(const DatasetRequest& request) {
   std::vector<std::string> scenarios, channels;
   for (const fs::path& scenario : request.scenarios) scenarios.push_back(scenario.string());
   for (const DatasetChannel channel : request.channels) channels.emplace_back(name_of(channel));
+  Json inputs = Json::object();  // files that are changed meanwhile would mix two data sets
+  for (const fs::path& scenario : request.scenarios) {
+    for (const auto& [file, hash] : load_flight(scenario, request.overrides).inputs) {
+      inputs[scenario.string()][file] = hash;
+    }
+  }
+  if (!request.poses.empty()) inputs[request.poses.string()] = sha256(request.poses);
   const Json json{{"build", std::string(build_identity())},
+                  {"inputs", inputs},
                   {"scenarios", scenarios},
                   {"overrides", request.overrides},
                   {"seeds", request.seeds},
@@ -136,7 +146,8 @@ void begin_dataset(const DatasetRequest& request, bool resume) {
   }
   const std::string text = request_json(request);
   if (is_used && (!fs::exists(file) || read_input_file(file) != text)) {
-    throw InputError(fmt::format("{}: holds a data set of another request or build", request.out.string()));
+    throw InputError(fmt::format("{}: holds a data set of another request, of other files or of another build",
+                                 request.out.string()));
   }
   require_writable(request.out);
   fs::create_directories(request.out / "worlds");

@@ -38,8 +38,8 @@ std::vector<Split> splits_of(size_t worlds);
 size_t world_count(const DatasetRequest& request);
 std::string world_name(const DatasetRequest& request, size_t world);
 
-/// Prepares the folder: it must be empty, or hold an unfinished data set of the same request and build if `resume`.
-/// Throws InputError otherwise, and for a request without channels or images.
+/// Prepares the folder: it must be empty, or hold an unfinished data set of the same request, files and build if
+/// `resume`. Throws InputError otherwise, and for a request without channels or images.
 void begin_dataset(const DatasetRequest& request, bool resume);
 
 /// Empties the folder again if no world is complete, so that a corrected request can begin.

@@ -58,10 +58,10 @@ std::optional<int64_t> common_multiple(int64_t multiple, double hz) {
 
 /// Returns the two rates nearest to `hz`, below and above it, that divide a multiple of `multiple` in the range. They
 /// have at most four decimals, so that they can be typed.
-std::vector<double> nearest_rates(double hz, int64_t least_hz, int64_t most_hz, int64_t multiple) {
+std::vector<double> nearest_rates(double hz, int64_t min_hz, int64_t max_hz, int64_t multiple) {
   std::optional<double> below, above;
-  for (int64_t physics = multiple; physics <= most_hz; physics += multiple) {
-    if (physics < least_hz) continue;
+  for (int64_t physics = multiple; physics <= max_hz; physics += multiple) {
+    if (physics < min_hz) continue;
     const double rate = static_cast<double>(physics);
     const auto candidate = [&](int64_t ticks) -> std::optional<double> {
       if (ticks < 1) return {};

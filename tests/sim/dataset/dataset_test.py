@@ -87,6 +87,17 @@ class Dataset(unittest.TestCase):
         again = files(other)
         self.assertEqual({name for name in whole if again.get(name) != whole[name]} - lost, set())
 
+    def test_a_changed_file_does_not_continue_a_data_set(self):
+        scenario, out = self.folder / "changing.yaml", self.folder / "changed"
+        scenario.write_text(f"use: {WORLD}\nname: changing\n")
+        options = ["--seeds", "1:2", "--images", 2, "--channels", "depth", "--renderer", "tiles", "--out", out]
+        self.assertEqual(hedgehop("dataset", scenario, *options).returncode, 0)
+        self.assertEqual(hedgehop("dataset", scenario, *options, "--resume").returncode, 0)
+        scenario.write_text(f"use: {WORLD}\nname: changing\nduration: 20\n")
+        done = hedgehop("dataset", scenario, *options, "--resume")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("of other files", done.stderr)
+
     def test_poses_are_within_their_bounds(self):
         for row in self.rows:
             self.assertGreaterEqual(float(row["clearance_m"]), 0.0)
