@@ -1,11 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/scene.h"
+#include "scenes/terrain/terrain.h"
 #include "sim/fields/field.h"
 
 namespace hedgehop::scenes {
@@ -69,11 +72,18 @@ void describe(Visitor& v, fields::ConfigOf<MoverConfig> auto& c) {
 /// @throws std::invalid_argument with the field, its value and the valid values.
 void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& scene);
 
-/// Objects that can be added to every generated scene.
+/// Objects that can be added to every generated scene, and its ground.
 struct SceneAdditions {
+  enum class Ground { plane, none };
+
   std::vector<BoxConfig> boxes;
   std::vector<MoverConfig> movers;
   std::vector<mesh::ImportConfig> imports;
+  Ground ground = Ground::plane;
+  std::optional<terrain::TerrainConfig> terrain;
+  Eigen::Vector3d origin_ENU = Eigen::Vector3d::Zero();  ///< of georeferenced coordinates, m
+
+  bool has_plane() const { return ground == Ground::plane && !terrain; }
 };
 
 template <class Visitor>
@@ -81,6 +91,19 @@ void describe(Visitor& v, fields::ConfigOf<SceneAdditions> auto& c) {
   v("boxes", c.boxes, {.meaning = "boxes on the ground, rotated about the vertical"});
   v("movers", c.movers, {.meaning = "moving obstacles"});
   v("imports", c.imports, {.meaning = "meshes from files, as scenery and obstacles"});
+  v("ground", c.ground, {.choices = {"plane", "none"}, .meaning = "the ground of the world at altitude 0, or none"});
+  v("terrain", c.terrain, {.meaning = "a terrain from a heightmap, instead of the ground at altitude 0"});
+  v("origin", c.origin_ENU,
+    {.unit = "m",
+     .at_least = -1e8,
+     .at_most = 1e8,
+     .meaning = "origin of the georeferenced coordinates of imports and terrain: east, north and up"});
 }
+
+/// Adds the contents of files to a scene: imports and terrain; removes the ground if the world has none.
+/// @param seed  of the random stream of the terrain's texture.
+/// @return one line for each file with features that are not rendered.
+/// @throws std::invalid_argument that begins with the faulty key.
+std::vector<std::string> add_files(const SceneAdditions& added, uint64_t seed, Scene& scene);
 
 }  // namespace hedgehop::scenes

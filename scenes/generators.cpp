@@ -1,13 +1,15 @@
 #include "scenes/generators.h"
 
+#include <type_traits>
+
 #include "scenes/additions.h"
-#include "scenes/mesh/mesh_import.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes {
 namespace {
 
-constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001;  // of the scene's seed; generators use 0 and up
+constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001,
+                   kTerrainStream = 1002;  // of the scene's seed; generators use 0 and up
 
 Scene generate(const worlds::UrbanConfig& config, uint64_t seed) { return worlds::make_urban(config, seed); }
 Scene generate(const worlds::RoomConfig& config, uint64_t seed) { return worlds::make_room(config, seed); }
@@ -21,6 +23,7 @@ Scene generate(const worlds::ParkConfig& config, uint64_t seed) { return worlds:
 Scene generate(const worlds::CheckerboardConfig& config, uint64_t seed) {
   return worlds::make_checkerboard(config, seed);
 }
+Scene generate(const worlds::OpenConfig& config, uint64_t seed) { return worlds::make_open(config, seed); }
 Scene generate(const worlds::AprilGridConfig& config, uint64_t seed) { return worlds::make_aprilgrid(config, seed); }
 
 }  // namespace
@@ -30,7 +33,8 @@ Scene make_scene(const SceneConfig& config, uint64_t seed) {
     Scene scene = generate(chosen, seed);
     add_boxes(chosen.added.boxes, derived_seed(seed, kBoxStream), scene);
     add_movers(chosen.added.movers, derived_seed(seed, kMoverStream), scene);
-    mesh::add_imports(chosen.added.imports, scene);
+    add_files(chosen.added, derived_seed(seed, kTerrainStream), scene);
+    if constexpr (std::is_same_v<decltype(chosen), const worlds::OpenConfig&>) worlds::set_bounds(scene);
     return scene;
   };
   return std::visit(make, config);

@@ -183,11 +183,19 @@ void add_ground(std::vector<double> norths_m, std::vector<double> easts_m,
   for (size_t i = 1; i < norths_m.size(); ++i) {
     for (size_t j = 1; j < easts_m.size(); ++j) {
       const Eigen::Vector3d low(norths_m[i - 1], easts_m[j - 1], 0.0), high(norths_m[i], easts_m[j], 0.0);
-      const auto [cover, is_road] = cell_at(0.5 * (low + high).head<2>());
-      if (is_road && !road) road = mesh.begin_instance("road", SemanticClass::road);
-      mesh.resume_instance(is_road ? *road : ground);
+      const GroundCell cell = cell_at(0.5 * (low + high).head<2>());
+      const Cover& cover = cell.cover;
+      if (cell.is_road && !road) road = mesh.begin_instance("road", SemanticClass::road);
+      mesh.resume_instance(cell.is_road ? *road : ground);
       const Eigen::Vector2d from_origin_m(low.y(), -high.x());  // up in the image is north
-      mesh.add_tiled(top_panel({low, high}), cover.tile_m, cover.offset + from_origin_m / cover.tile_m, cover.texture);
+      const Eigen::Vector2d offset = cover.offset + from_origin_m / cover.tile_m;
+      const TexturedPanel panel = top_panel({low, high});
+      if (cell.add) {
+        const Eigen::Vector2d end = offset + Eigen::Vector2d(panel.right_m.norm(), panel.down_m.norm()) / cover.tile_m;
+        cell.add(panel, {offset.x(), offset.y(), end.x(), end.y()});
+      } else {
+        mesh.add_tiled(panel, cover.tile_m, offset, cover.texture);
+      }
     }
   }
 }

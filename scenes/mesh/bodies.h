@@ -52,6 +52,8 @@ Solid ball_of(const std::string& name, const Eigen::Vector3d& center_W, double r
 struct GroundCell {
   Cover cover;
   bool is_road = false;
+  /// Adds the cell in place of one panel with the cover, if it is not empty.
+  std::function<void(const TexturedPanel&, const ImageArea&)> add = {};
 };
 
 /// Adds the ground at z = 0 in a chunk of its own: a grid of panels that extends at least 12 km from the origin. Its

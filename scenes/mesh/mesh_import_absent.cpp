@@ -5,7 +5,7 @@
 
 namespace hedgehop::scenes::mesh {
 
-std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, Scene&) {
+std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, const Eigen::Vector3d&, Scene&) {
   if (imports.empty()) return {};
   throw fields::InvalidField("imports",
                              "this build of Hedgehop cannot read meshes (see hedgehop --version --features)");

@@ -128,7 +128,7 @@ cv::Mat paint_trim(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
-CityTextures city_textures(int size_px, uint64_t seed) {
+CityTextures city_textures(int size_px, uint64_t seed, bool wear) {
   CityTextures city{.images = TextureList(size_px)};
   const auto add = [&](cv::Mat (*paint)(int, uint64_t), uint64_t stream) {
     const uint64_t image_seed = derived_seed(seed, stream);
@@ -154,6 +154,7 @@ CityTextures city_textures(int size_px, uint64_t seed) {
     city.images.add(CityTextures::kFacadeVariants,
                     [=] { return paint_facades(style, size_px, CityTextures::kFacadeVariants, image_seed); });
   }
+  if (wear) city.repairs = add(paint_repairs, 12);
   return city;
 }
 

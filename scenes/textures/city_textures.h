@@ -30,6 +30,7 @@ struct CityTextures {
   uint32_t field = 0;
   std::array<uint32_t, 2> roofs{};
   std::array<uint32_t, 2> trims{};
+  uint32_t repairs = 0;       ///< of streets; only in a city with wear
   uint32_t first_facade = 0;  ///< kFacadeVariants per facade style
 
   uint32_t facade(int style, int variant) const {
@@ -37,7 +38,7 @@ struct CityTextures {
   }
 };
 
-/// Returns the textures of a city.
-CityTextures city_textures(int size_px, uint64_t seed);
+/// Returns the textures of a city. @param wear  with those of repairs.
+CityTextures city_textures(int size_px, uint64_t seed, bool wear);
 
 }  // namespace hedgehop::scenes::textures

@@ -117,6 +117,29 @@ cv::Mat paint_crossing(int size_px, uint64_t seed) {
   return canvas.finished();
 }
 
+cv::Mat paint_repairs(int size_px, uint64_t seed) {
+  Random random(seed);
+  const double tile = kGrassTileM;
+  Canvas canvas(size_px, tile, kAsphalt);
+  for (int k = 0; k < 60; ++k) {
+    const Area patch{uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.6, 3.5),
+                     uniform(random, 0.6, 3.5)};
+    canvas.fill(patch, varied(kAsphalt, 0.5, random), uniform(random, 0.5, 1.0));
+    canvas.outline(patch, 0.06, kStreetDark, 0.6);
+  }
+  for (int k = 0; k < 25; ++k) {
+    canvas.crack(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 1.0, 5.0), 0.05, kStreetDark,
+                 0.8, random);
+  }
+  for (int k = 0; k < 90; ++k) {
+    canvas.disc(uniform(random, 0.0, tile), uniform(random, 0.0, tile), uniform(random, 0.05, 0.45),
+                chance(random, 0.6) ? kStreetDark : Color{0.62f, 0.60f, 0.56f}, uniform(random, 0.3, 0.7));
+  }
+  for (int k = 0; k < 6; ++k) paint_manhole(canvas, uniform(random, 0.0, tile), uniform(random, 0.0, tile));
+  finish_ground(canvas, random);
+  return canvas.finished();
+}
+
 cv::Mat paint_paved_lot(int size_px, uint64_t seed) {
   Random random(seed);
   const double tile = kLotTileM;

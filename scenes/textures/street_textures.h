@@ -17,6 +17,9 @@ cv::Mat paint_street(int size_px, uint64_t seed);
 /// Returns the crossing of two streets: crosswalks on all sides, sidewalk in the corners.
 cv::Mat paint_crossing(int size_px, uint64_t seed);
 
+/// Returns patches of asphalt of any age, with joints, cracks, stains and covers, with sides of kGrassTileM.
+cv::Mat paint_repairs(int size_px, uint64_t seed);
+
 cv::Mat paint_paved_lot(int size_px, uint64_t seed);
 cv::Mat paint_parking_lot(int size_px, uint64_t seed);
 cv::Mat paint_garden_lot(int size_px, uint64_t seed);

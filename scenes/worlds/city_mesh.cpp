@@ -7,6 +7,7 @@
 #include "scenes/textures/city_textures.h"
 #include "scenes/textures/facade_textures.h"
 #include "scenes/textures/street_textures.h"
+#include "scenes/worlds/wear.h"
 
 namespace hedgehop::scenes::worlds {
 
@@ -71,8 +72,10 @@ uint32_t country_image(const GroundStrip& north, const GroundStrip& east, const 
   return derived_seed(row_seed, static_cast<uint64_t>(east.field)) % 3 == 0 ? city.field : city.grass;
 }
 
+constexpr double kStreetInsetM = 1.9;  // of repairs, from the sides of a street
+
 void add_cell(const GroundStrip& north, const GroundStrip& east, const textures::CityTextures& city,
-              uint64_t field_seed, Random& random, mesh::MeshBuilder& mesh) {
+              uint64_t field_seed, Random& random, Wear* wear, mesh::MeshBuilder& mesh) {
   const double shift = uniform(random, 0.0, 1.0);
   const int choice = uniform_index(random, 6);
   const bool rotated = chance(random, 0.5);
@@ -90,16 +93,23 @@ void add_cell(const GroundStrip& north, const GroundStrip& east, const textures:
     const bool runs_east = north.band == GroundUse::street;
     const mesh::TexturedPanel panel = ground_panel(north, east, runs_east);
     const double repeats = panel.down_m.norm() / panel.right_m.norm();
-    mesh.add(panel, {0.0, shift, 1.0, shift + repeats}, city.streets[static_cast<size_t>(choice % 2)]);
+    const mesh::ImageArea area{0.0, shift, 1.0, shift + repeats};
+    if (wear) {
+      add_worn(panel, area, kStreetInsetM, *wear, mesh);
+    } else {
+      mesh.add(panel, area, city.streets[static_cast<size_t>(choice % 2)]);
+    }
   }
 }
 
 }  // namespace
 
-void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, uint64_t seed,
+void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, uint64_t seed, bool wear,
                      mesh::MeshBuilder& mesh) {
   Random random(derived_seed(seed, 0));
   const uint64_t field_seed = derived_seed(seed, 1);
+  Wear repairs{
+      {city.streets.begin(), city.streets.end()}, city.repairs, textures::kGrassTileM, Random(derived_seed(seed, 2))};
   constexpr size_t kStripsPerChunk = 4;  // two cells of the city
   const std::vector<GroundStrip> strips = strips_along_axis(plan);
   const uint32_t ground = mesh.begin_instance("ground", SemanticClass::ground);
@@ -110,7 +120,7 @@ void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, 
       for (size_t r = row; r < std::min(row + kStripsPerChunk, strips.size()); ++r) {
         for (size_t c = column; c < std::min(column + kStripsPerChunk, strips.size()); ++c) {
           mesh.resume_instance(on_road(strips[r], strips[c]) ? road : ground);
-          add_cell(strips[r], strips[c], city, field_seed, random, mesh);
+          add_cell(strips[r], strips[c], city, field_seed, random, wear ? &repairs : nullptr, mesh);
         }
       }
     }
@@ -126,6 +136,18 @@ struct CellSpan {
   double start;  // as a share of the wall's width or height, 0..1
   double end;
 };
+
+// Returns spans of `size` of `count` cells, each with a random part of the texture.
+std::vector<CellSpan> random_spans(int count, int size, int cells_per_image, Random& random) {
+  std::vector<CellSpan> result;
+  for (int done = 0; done < count;) {
+    const int cells = std::min({size, count - done, cells_per_image});
+    const double start = static_cast<double>(done) / count, end = static_cast<double>(done + cells) / count;
+    result.push_back({uniform_index(random, cells_per_image - cells + 1), cells, start, end});
+    done += cells;
+  }
+  return result;
+}
 
 // Divides `count` cells, starting with cell `offset` of the texture, at the repeats of the texture.
 std::vector<CellSpan> cell_spans(int count, int offset, int cells_per_image) {
@@ -155,14 +177,15 @@ struct Elevation {
 };
 
 void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const textures::CityTextures& city,
-              Random& random, mesh::MeshBuilder& mesh) {
+              Random& random, Random* wear, mesh::MeshBuilder& mesh) {
   const textures::FacadeStyle& style = textures::facade_styles()[static_cast<size_t>(elevation.style)];
   const double width = wall.right_m.norm(), height = wall.down_m.norm();
   const double floors_top = elevation.cornice_m, floors_bottom = height - elevation.shop_m;
   const int bays = std::max(1, static_cast<int>(std::lround(width / style.bay_m())));
   const int floors = std::max(1, static_cast<int>(std::lround((floors_bottom - floors_top) / style.floor_m())));
-  const auto columns = cell_spans(bays, uniform_index(random, style.bays), style.bays);
-  const auto rows = cell_spans(floors, elevation.first_floor, style.floors);
+  auto columns = cell_spans(bays, uniform_index(random, style.bays), style.bays);
+  auto rows = cell_spans(floors, elevation.first_floor, style.floors);
+  if (wear) columns = random_spans(bays, 2, style.bays, *wear);
 
   // Complete shops across the wall.
   const double shops = std::max(1.0, std::round(width * textures::kShopBays / textures::kTrimTileM));
@@ -173,15 +196,18 @@ void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const
 
   int first_variant = uniform_index(random, textures::CityTextures::kFacadeVariants);
   for (const CellSpan& column : columns) {
-    const double u0 = static_cast<double>(column.first_cell) / style.bays;
-    const double u1 = static_cast<double>(column.first_cell + column.cell_count) / style.bays;
     int variant = first_variant++;  // horizontal and vertical neighbors always differ
+    if (wear) rows = random_spans(floors, 1, style.floors, *wear);
     for (const CellSpan& row : rows) {
       const double depth = floors_bottom - floors_top;
       const mesh::TexturedPanel panel =
           part(wall, column.start, column.end, floors_top + row.start * depth, floors_top + row.end * depth);
-      const mesh::ImageArea area{u0, static_cast<double>(row.first_cell) / style.floors, u1,
+      const int bay = wear ? uniform_index(*wear, style.bays - column.cell_count + 1) : column.first_cell;
+      const mesh::ImageArea area{static_cast<double>(bay) / style.bays,
+                                 static_cast<double>(row.first_cell) / style.floors,
+                                 static_cast<double>(bay + column.cell_count) / style.bays,
                                  static_cast<double>(row.first_cell + row.cell_count) / style.floors};
+      if (wear) variant = uniform_index(*wear, textures::CityTextures::kFacadeVariants);
       mesh.add(panel, area, city.facade(elevation.style, variant++ % textures::CityTextures::kFacadeVariants));
     }
     if (elevation.cornice_m > 0.0) {
@@ -200,7 +226,7 @@ void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const
 
 }  // namespace
 
-void add_building(const Building& building, const textures::CityTextures& city, Random& random,
+void add_building(const Building& building, const textures::CityTextures& city, Random& random, Random* wear,
                   mesh::MeshBuilder& mesh) {
   constexpr double kMinFloorM = 2.0;
   const int style = uniform_index(random, static_cast<int>(textures::facade_styles().size()));
@@ -222,7 +248,8 @@ void add_building(const Building& building, const textures::CityTextures& city, 
     const double height = box_W.sizes().z();
     if (height < textures::kCorniceM + kMinFloorM) elevation.cornice_m = 0.0;
     if (k == 0 && height > textures::kShopM + textures::kCorniceM + kMinFloorM) elevation.shop_m = textures::kShopM;
-    for (const mesh::TexturedPanel& wall : mesh::side_panels(box_W)) add_wall(wall, elevation, city, random, mesh);
+    for (const mesh::TexturedPanel& wall : mesh::side_panels(box_W))
+      add_wall(wall, elevation, city, random, wear, mesh);
   }
 }
 

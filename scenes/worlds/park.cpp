@@ -12,6 +12,7 @@
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "scenes/world_config.h"
+#include "scenes/worlds/wear.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::scenes::worlds {
@@ -24,6 +25,7 @@ using Eigen::Vector3d;
 constexpr uint64_t kParkPlaceStream = 0;
 constexpr uint64_t kParkImageStream = 1;
 constexpr uint64_t kParkLumpStream = 2;
+constexpr uint64_t kParkWearStream = 3;
 
 constexpr double kRoadHalfM = 3.5, kParkedM = 4.9;  // vehicles are parked on the verge
 
@@ -74,8 +76,10 @@ class PlacementPlanner {
 
 constexpr uint32_t kParkGrass = 0, kAsphalt = 1, kParkBark = 2, kRock = 3, kFirstParkLeaves = 4, kFirstPaint = 7;
 constexpr int kParkLeaves = 3, kPaints = 3;
+constexpr uint32_t kRoadRepairs = kFirstPaint + 2 * kPaints;
+constexpr double kRoadInsetM = 0.3;  // of repairs, from the edges of a lane
 
-TextureList park_textures(int size_px, uint64_t seed) {
+TextureList park_textures(int size_px, uint64_t seed, bool wear) {
   using textures::Leaves, textures::paint_leaves;
   TextureList list(size_px);
   list.add([=] { return textures::paint_grass(size_px, derived_seed(seed, 0)); });
@@ -91,6 +95,7 @@ TextureList park_textures(int size_px, uint64_t seed) {
     list.add([=] { return textures::paint_vehicle_body(paint, size_px, derived_seed(seed, 10 + k)); });
     list.add([=] { return textures::paint_vehicle_cabin(paint, size_px, derived_seed(seed, 20 + k)); });
   }
+  if (wear) list.add([=] { return textures::paint_repairs(size_px, derived_seed(seed, 7)); });
   return list;
 }
 
@@ -196,16 +201,24 @@ Scene make_park(const ParkConfig& config, uint64_t seed) {
   validate(config);
   Scene scene;
   scene.name = "park";
-  scene.textures = park_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kParkImageStream));
+  scene.textures =
+      park_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kParkImageStream), config.wear);
   const double half_m = 0.5 * config.extent_m;
   scene.bounds_NE_m = {Vector2d(-half_m, -half_m), Vector2d(half_m, half_m)};
   mesh::MeshBuilder mesh("opaque");
+  Wear repairs{{kAsphalt}, kRoadRepairs, textures::kGrassTileM, Random(derived_seed(seed, kParkWearStream))};
   mesh::add_ground(
       {-half_m, -0.5 * half_m, 0.0, 0.5 * half_m, half_m}, {-half_m, -kRoadHalfM, 0.0, kRoadHalfM, half_m},
-      [](const Vector2d& middle_NE) {
+      [&](const Vector2d& middle_NE) {
         const bool is_road = std::abs(middle_NE.y()) < kRoadHalfM;
-        return is_road ? mesh::GroundCell{{kAsphalt, textures::kAsphaltTileM}, true}
-                       : mesh::GroundCell{{kParkGrass, textures::kGrassTileM}, false};
+        if (!is_road) return mesh::GroundCell{{kParkGrass, textures::kGrassTileM}, false};
+        mesh::GroundCell road{{kAsphalt, textures::kAsphaltTileM}, true};
+        if (config.wear && std::abs(middle_NE.x()) < half_m) {
+          road.add = [&](const mesh::TexturedPanel& panel, const mesh::ImageArea& area) {
+            add_worn(panel, area, kRoadInsetM, repairs, mesh);
+          };
+        }
+        return road;
       },
       mesh);
 

@@ -23,6 +23,7 @@ struct ParkConfig {
   int64_t vehicles = 6;
   double gap_m = 2.5;
   std::vector<Clearing> keep_clear = {{0.0, 0.0, 4.0}};
+  bool wear = true;
   int64_t texture_size_px = 512;
   SceneAdditions added;
 };
@@ -38,6 +39,8 @@ void describe(Visitor& v, fields::ConfigOf<ParkConfig> auto& c) {
   v("vehicles", c.vehicles, {.at_least = 0.0, .at_most = 200.0, .meaning = "number of cars and vans along the road"});
   v("gap", c.gap_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum gap between objects in the plan"});
   v("keep_clear", c.keep_clear, {.meaning = "discs of the plan free of objects, such as start and goal"});
+  v("wear", c.wear,
+    {.meaning = "whether repairs of the road differ from place to place; without, its surface repeats"});
   describe_texture_size(v, c.texture_size_px);
   describe(v, c.added);
 }

@@ -20,14 +20,15 @@ constexpr uint64_t kUrbanPlanStream = 0;
 constexpr uint64_t kUrbanImageStream = 1;
 constexpr uint64_t kGroundStream = 2;
 constexpr uint64_t kBuildingStream = 3;
+constexpr uint64_t kWearStream = 4;
 
 }  // namespace
 
 Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   const UrbanPlan plan = plan_urban(config, derived_seed(seed, kUrbanPlanStream));
   require_texture_size(config.texture_size_px);
-  textures::CityTextures city =
-      textures::city_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kUrbanImageStream));
+  textures::CityTextures city = textures::city_textures(static_cast<int>(config.texture_size_px),
+                                                        derived_seed(seed, kUrbanImageStream), config.wear);
 
   Scene scene;
   scene.name = "urban";
@@ -39,12 +40,13 @@ Scene make_urban(const UrbanConfig& config, uint64_t seed) {
   scene.bounds_NE_m = {Eigen::Vector2d(-half, -half), Eigen::Vector2d(half, half)};
 
   mesh::MeshBuilder mesh("opaque");
-  add_city_ground(plan, city, derived_seed(seed, kGroundStream), mesh);
+  add_city_ground(plan, city, derived_seed(seed, kGroundStream), config.wear, mesh);
   for (const Building& building : plan.buildings) {
     Random random(derived_seed(derived_seed(seed, kBuildingStream), static_cast<uint64_t>(building.cell)));
     const std::string name = "building " + std::to_string(building.cell);
     mesh.begin_instance(name, SemanticClass::building);
-    add_building(building, city, random, mesh);
+    Random wear(derived_seed(derived_seed(seed, kWearStream), static_cast<uint64_t>(building.cell)));
+    add_building(building, city, random, config.wear ? &wear : nullptr, mesh);
     for (const Eigen::AlignedBox3d& box_W : building.boxes_W) scene.solids.push_back(mesh::solid_of(name, box_W));
   }
   scene.meshes.push_back(mesh.finish());

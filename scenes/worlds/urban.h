@@ -32,6 +32,7 @@ struct UrbanConfig {
   double max_height_m = 40.0;
   double setback_share = 0.3;  ///< of buildings with a narrower tower on top
   std::vector<Clearing> keep_clear = {{-130.0, 80.0, 6.0}, {110.0, -110.0, 6.0}};
+  bool wear = true;
   int64_t texture_size_px = 512;
   SceneAdditions added;
 };
@@ -61,6 +62,9 @@ void describe(Visitor& v, fields::ConfigOf<UrbanConfig> auto& c) {
   v("setback_share", c.setback_share,
     {.at_least = 0.0, .at_most = 1.0, .meaning = "share of buildings with a narrower tower on top"});
   v("keep_clear", c.keep_clear, {.meaning = "discs of the plan free of buildings, such as start and goal"});
+  v("wear", c.wear,
+    {.meaning = "whether repairs of the streets and windows of the facades differ from place to place; without, they "
+                "repeat"});
   describe_texture_size(v, c.texture_size_px);
   describe(v, c.added);
 }

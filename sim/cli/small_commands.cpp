@@ -47,12 +47,12 @@ void print_black_pixels(const RigConfig& rig) {
 
 void print_import_limits(const scenes::SceneConfig& config) {
   const auto print = [](const auto& world) {
-    if (world.added.imports.empty()) return;
+    if (world.added.imports.empty() && !world.added.terrain) return;
     scenes::Scene scene;
     if constexpr (requires { world.texture_size_px; }) {
       scene.textures = scenes::TextureList(static_cast<int>(world.texture_size_px));
     }
-    for (const std::string& line : scenes::mesh::add_imports(world.added.imports, scene)) notice(line + "\n");
+    for (const std::string& line : scenes::add_files(world.added, 0, scene)) notice(line + "\n");
   };
   std::visit(print, config);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,17 +40,17 @@ class CollisionWorld::World {
       parts_.push_back({make_body(part, "hull part " + std::to_string(parts_.size())), part.center_B_m});
     }
     for (size_t i = 0; i < scenes::solid_count(scene); ++i) {
-      for (ConvexBody& body : make_bodies(scenes::solid_at(scene, i))) {
+      for (PosedBody& body : make_bodies(scenes::solid_at(scene, i))) {
         bodies_.push_back(std::move(body));
         solid_of_.push_back(i);
       }
     }
     for (static_count_ = 0; static_count_ < bodies_.size() && solid_of_[static_count_] < scene.solids.size();
          ++static_count_) {
-      place_static(scene.solids[solid_of_[static_count_]].X_WS);
+      place_static();
     }
+    grow_tree();
     place_moving(scene);
-    tree_.optimizeTopDown();
   }
 
   Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
@@ -130,12 +131,28 @@ class CollisionWorld::World {
   };
 
   // Places the next static body.
-  void place_static(const Eigen::Isometry3d& X_WS) {
-    const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], X_WS);
-    const Eigen::Vector3d center_W = X_WS.translation(), half_m = body.half_size_W();
-    lowest_z_ = std::max(lowest_z_, center_W.z() + half_m.z());
-    btDbvtNode* leaf = tree_.insert(btDbvtVolume::FromCE(to_bullet(center_W), to_bullet(half_m)), nullptr);
-    leaf->dataAsInt = static_cast<int>(placed_.size() - 1);
+  void place_static() {
+    const PlacedBody& body = place_next();
+    lowest_z_ = std::max(lowest_z_, body.X_WS.translation().z() + body.half_size_W().z());
+  }
+
+  const PlacedBody& place_next() {
+    const PosedBody& next = bodies_[placed_.size()];
+    return placed_.emplace_back(next.body, next.X_WS);
+  }
+
+  // Adds the static bodies to the tree in a scattered order: the triangles of a terrain in their own order would make a
+  // tree as deep as their number.
+  void grow_tree() {
+    const size_t count = placed_.size();
+    size_t step = static_cast<size_t>(0.618 * static_cast<double>(count)) + 1;
+    while (std::gcd(step, count) > 1) ++step;
+    for (size_t k = 0, index = 0; k < count; ++k, index = (index + step) % count) {
+      const PlacedBody& body = placed_[index];
+      const btDbvtVolume box = btDbvtVolume::FromCE(to_bullet(body.X_WS.translation()), to_bullet(body.half_size_W()));
+      tree_.insert(box, nullptr)->dataAsInt = static_cast<int>(index);
+    }
+    tree_.optimizeTopDown();
   }
 
   // Places the remaining bodies, all of movers, in M.
@@ -144,13 +161,11 @@ class CollisionWorld::World {
     for (const scenes::Mover& mover : scene.movers) {
       scenes::require_motion(mover.motion);
       MoverBodies& mover_bodies = movers_.emplace_back(MoverBodies{mover.motion, placed_.size()});
-      for (const Solid& solid : mover.solids) {
-        for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] == solid_index; ++mover_bodies.count) {
-          const PlacedBody& body = placed_.emplace_back(bodies_[placed_.size()], solid.X_WS);
-          const double out_m = solid.X_WS.translation().norm() + body.body->bounding_radius_m;
-          mover_bodies.radius_m = std::max(mover_bodies.radius_m, out_m);
-        }
-        ++solid_index;
+      solid_index += mover.solids.size();
+      for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] < solid_index; ++mover_bodies.count) {
+        const PlacedBody& body = place_next();
+        const double out_m = body.X_WS.translation().norm() + body.body->bounding_radius_m;
+        mover_bodies.radius_m = std::max(mover_bodies.radius_m, out_m);
       }
     }
   }
@@ -215,7 +230,7 @@ class CollisionWorld::World {
 
   bool has_ground_;
   std::vector<PartBody> parts_;
-  std::vector<ConvexBody> bodies_;  // of the solids in order, then those of the movers
+  std::vector<PosedBody> bodies_;   // of the solids in order, then those of the movers
   std::vector<size_t> solid_of_;    // index of each body's solid
   std::vector<PlacedBody> placed_;  // in W; from static_count_ on in M
   size_t static_count_ = 0;         // bodies that do not move

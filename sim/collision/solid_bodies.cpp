@@ -48,36 +48,39 @@ ConvexBody make_body(const HullPart& part, const std::string& name) {
   return {ConvexBody::Shape::cylinder, part.half_extents_m};
 }
 
-std::vector<ConvexBody> make_bodies(const Solid& solid) {
+std::vector<PosedBody> make_bodies(const Solid& solid) {
   const std::string name = "solid '" + solid.name + "'";
   if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(name + ": the pose must be finite");
   const Eigen::Vector3d& half_m = solid.half_extents_m;
-  std::vector<ConvexBody> bodies;
+  std::vector<PosedBody> bodies;
   switch (solid.shape) {
     case Solid::Shape::box:
       require_extents(half_m, name);
-      bodies.emplace_back(ConvexBody::Shape::box, half_m);
+      bodies.push_back({{ConvexBody::Shape::box, half_m}, solid.X_WS});
       break;
     case Solid::Shape::cylinder:
       require_extents(half_m, name);
       if (half_m.x() != half_m.y()) throw std::invalid_argument(name + ": a cylinder's first two half extents differ");
-      bodies.emplace_back(ConvexBody::Shape::cylinder, half_m);
+      bodies.push_back({{ConvexBody::Shape::cylinder, half_m}, solid.X_WS});
       break;
     case Solid::Shape::sphere:
       require_extents(half_m, name);
       if (half_m.minCoeff() != half_m.maxCoeff())
         throw std::invalid_argument(name + ": a sphere's half extents differ");
-      bodies.emplace_back(ConvexBody::Shape::sphere, half_m);
+      bodies.push_back({{ConvexBody::Shape::sphere, half_m}, solid.X_WS});
       break;
     case Solid::Shape::hull:
       require_polyhedron(solid.polyhedron, true, name);
-      bodies.emplace_back(solid.polyhedron);
+      bodies.push_back({ConvexBody(solid.polyhedron), solid.X_WS});
       break;
     case Solid::Shape::surface:
       require_polyhedron(solid.polyhedron, false, name);
       for (const auto& [a, b, c] : solid.polyhedron.faces) {
         const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
-        bodies.emplace_back(scenes::mesh::Polyhedron{{corners[a], corners[b], corners[c]}, {{0, 1, 2}}});
+        const Eigen::Vector3d center = (corners[a] + corners[b] + corners[c]) / 3.0;
+        bodies.push_back({ConvexBody(scenes::mesh::Polyhedron{
+                              {corners[a] - center, corners[b] - center, corners[c] - center}, {{0, 1, 2}}}),
+                          solid.X_WS * Eigen::Translation3d(center)});
       }
       break;
   }

@@ -15,10 +15,16 @@ namespace hedgehop::sim {
 /// the first two half extents of a cylinder differ, or the center is not finite.
 ConvexBody make_body(const dynamics::HullPart& part, const std::string& name);
 
-/// Returns the bodies of a solid, in S: one, or each triangle of a surface.
+/// A convex body and its pose. The origin of its frame is near its center.
+struct PosedBody {
+  ConvexBody body;
+  Eigen::Isometry3d X_WS;
+};
+
+/// Returns the bodies of a solid: one, or each triangle of a surface.
 /// Throws std::invalid_argument that names the solid if its pose or an extent is not finite or out of range, radii that
 /// must be equal differ, or a polyhedron has no faces, a corner index out of range, a face without area or, as a hull,
 /// is not convex.
-std::vector<ConvexBody> make_bodies(const scenes::Solid& solid);
+std::vector<PosedBody> make_bodies(const scenes::Solid& solid);
 
 }  // namespace hedgehop::sim

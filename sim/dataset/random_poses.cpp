@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "sim/config/input_error.h"
@@ -49,7 +50,9 @@ std::vector<RandomPose> random_poses(size_t count, const PoseBounds& bounds, dou
   for (int draws = 0; poses.size() < count;) {
     RandomPose pose = draw(random, bounds, duration_s, scene.bounds_NE_m);
     const Proximity near = collision.query(pose.X_WB, bounds.max_distance_m + 1.0, pose.t_s);
-    const bool is_free = !near.collided && near.obstacle_clearance_m >= bounds.min_distance_m &&
+    const bool is_above =
+        scene.has_ground || std::isfinite(collision.height_above_surface(pose.X_WB.translation(), pose.t_s));
+    const bool is_free = is_above && !near.collided && near.obstacle_clearance_m >= bounds.min_distance_m &&
                          near.obstacle_clearance_m <= bounds.max_distance_m && near.ground_clearance_m > 0.0;
     if (is_free) {
       pose.clearance_m = std::min(near.obstacle_clearance_m, near.ground_clearance_m);

@@ -28,7 +28,8 @@ struct RandomPose {
 
 /// Draws poses: the position is uniform over the scene's bounds and the heights, the heading uniform over the circle,
 /// roll and pitch uniform over the tilts, the time uniform over the duration, velocity and turn rate uniform in balls;
-/// a pose whose clearance is not within the distances is drawn again. Equal arguments give equal poses.
+/// a pose whose clearance is not within the distances, or that is above no surface in a scene without ground, is drawn
+/// again. Equal arguments give equal poses.
 /// Throws InputError if 20,000 draws in a row are not free.
 std::vector<RandomPose> random_poses(size_t count, const PoseBounds& bounds, double duration_s,
                                      const scenes::Scene& scene, CollisionWorld& collision, uint64_t seed);

@@ -28,9 +28,10 @@ std::string name_of(const fs::path& file, const fs::path& folder) {
 
 std::set<fs::path> named_files(const Scenario& scenario) {
   std::set<fs::path> files;
-  const auto& imports = std::visit(
-      [](const auto& chosen) -> const auto& { return chosen.added.imports; }, scenario.scene);
-  for (const scenes::mesh::ImportConfig& import : imports) files.merge(scenes::mesh::mesh_files(import.file));
+  const scenes::SceneAdditions& added = std::visit(
+      [](const auto& chosen) -> const auto& { return chosen.added; }, scenario.scene);
+  if (added.terrain) files.insert(added.terrain->heightmap);
+  for (const scenes::mesh::ImportConfig& import : added.imports) files.merge(scenes::mesh::mesh_files(import.file));
   for (const CameraConfig& camera : scenario.rig.cameras) files.insert(camera.calibration);
   files.insert(scenario.rig.read_calibrations.begin(), scenario.rig.read_calibrations.end());
   for (const CheckConfig& check : scenario.checks) {

@@ -43,16 +43,18 @@ constexpr FormerKey kFormerKeys[] = {
      .advice = "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"},
 };
 
-/// Makes the paths of imported meshes absolute, from the folder of the file that names them, so that the written
-/// scenario can be read from any folder.
-void resolve_imports(scenes::SceneConfig& scene, const Node& root) {
-  std::vector<scenes::mesh::ImportConfig>& imports = std::visit(
-      [](auto& chosen) -> auto& { return chosen.added.imports; }, scene);
-  for (size_t k = 0; k < imports.size(); ++k) {
-    const SourcePosition position = position_of(root, "scene.imports." + std::to_string(k) + ".file");
-    const std::filesystem::path folder = std::filesystem::path(position.file).parent_path();
-    imports[k].file = std::filesystem::absolute(folder / imports[k].file).lexically_normal().string();
-  }
+/// Makes the paths of imports and of the heightmap absolute, from the folder of the file that names them, so that the
+/// written scenario can be read from any folder.
+void resolve_files(scenes::SceneConfig& scene, const Node& root) {
+  scenes::SceneAdditions& added = std::visit(
+      [](auto& chosen) -> auto& { return chosen.added; }, scene);
+  const auto resolve = [&root](std::string& file, const std::string& key) {
+    const std::filesystem::path folder = std::filesystem::path(position_of(root, key).file).parent_path();
+    file = std::filesystem::absolute(folder / file).lexically_normal().string();
+  };
+  for (size_t k = 0; k < added.imports.size(); ++k)
+    resolve(added.imports[k].file, "scene.imports." + std::to_string(k) + ".file");
+  if (added.terrain) resolve(added.terrain->heightmap, "scene.terrain.heightmap");
 }
 
 /// Refuses a file of another kind by one error that names the kind, instead of an error per key.
@@ -88,7 +90,7 @@ LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::sp
   read_struct(root, "", "", scenario, errors);
   errors.throw_if_any();
   if (seed) scenario.seed = *seed;
-  resolve_imports(scenario.scene, root);
+  resolve_files(scenario.scene, root);
   for (CheckConfig& check : scenario.checks) {
     if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
       path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();

@@ -43,7 +43,9 @@ void describe(Visitor& v, fields::ConfigOf<StartConfig> auto& c) {
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
   v("altitude", c.altitude_m,
-    {.unit = "m", .at_least = 0.0, .required = true, .meaning = "height above the scene's origin"});
+    {.unit = "m",
+     .required = true,
+     .meaning = "height above the scene's origin; >= 0 if the scene has a ground plane"});
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "direction of the nose, from north to east"});
   v("spread", c.spread_m,
@@ -75,7 +77,9 @@ void describe(Visitor& v, fields::ConfigOf<GoalConfig> auto& c) {
   v("north", c.north_m, {.unit = "m", .required = true, .meaning = "position north of the scene's origin"});
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "position east of the scene's origin"});
   v("altitude", c.altitude_m,
-    {.unit = "m", .at_least = 0.0, .required = true, .meaning = "altitude to hold, above the scene's origin"});
+    {.unit = "m",
+     .required = true,
+     .meaning = "altitude to hold, above the scene's origin; >= 0 if the scene has a ground plane"});
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "heading to hold, from north to east"});
   v("radius", c.radius_m,
@@ -90,8 +94,8 @@ struct AltitudeBandConfig {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<AltitudeBandConfig> auto& c) {
-  v("min", c.min_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "minimum altitude"});
-  v("max", c.max_m, {.unit = "m", .at_least = 0.0, .required = true, .meaning = "maximum altitude"});
+  v("min", c.min_m, {.unit = "m", .required = true, .meaning = "minimum altitude"});
+  v("max", c.max_m, {.unit = "m", .required = true, .meaning = "maximum altitude"});
 }
 
 /// The camera whose optic flow measures the horizontal velocity for the navigation filter.

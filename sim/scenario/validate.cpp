@@ -48,6 +48,22 @@ class Validator {
     }
   }
 
+  void altitudes() {
+    const bool has_plane = std::visit([](const auto& chosen) { return chosen.added.has_plane(); }, scenario_.scene);
+    if (!has_plane) return;
+    const auto require_above = [this](const std::string& path, double altitude_m) {
+      if (altitude_m >= 0.0) return;
+      add(path,
+          fmt::format("{} m is below the ground plane of the scene; valid: >= 0 m, or a scene with 'ground: none'",
+                      altitude_m));
+    };
+    require_above("start.altitude", scenario_.start.altitude_m);
+    if (scenario_.goal) require_above("goal.altitude", scenario_.goal->altitude_m);
+    for (size_t i = 0; i < scenario_.route.size(); ++i)
+      require_above(fmt::format("route.{}.altitude", i), scenario_.route[i].altitude_m);
+    if (const auto& band = scenario_.altitude_band) require_above("altitude_band.min", band->min_m);
+  }
+
   void start() {
     const auto* room = std::get_if<scenes::worlds::RoomConfig>(&scenario_.scene);
     if (!room) return;
@@ -141,7 +157,7 @@ class Validator {
     }
     build("scene", [&] {
       scenes::Scene alone;
-      std::visit([&](const auto& chosen) { scenes::mesh::add_imports(chosen.added.imports, alone); }, scenario_.scene);
+      std::visit([&](const auto& chosen) { scenes::add_files(chosen.added, 0, alone); }, scenario_.scene);
     });
     build("vehicle", [&] { vehicle_.emplace(scenario_.vehicle); });
     build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
@@ -219,6 +235,7 @@ Validation validate(Scenario& scenario, ModuleSource source) {
   if (!validator.bounds()) return validator.take();
   if (!validator.mounts()) return validator.take();
   validator.name();
+  validator.altitudes();
   validator.start();
   validator.rates();
   validator.rig();

@@ -48,7 +48,7 @@ void read_earlier_batch(const std::filesystem::path& file) { sim::reread_batch(f
 
 void read_mesh(const std::filesystem::path& file) {
   scenes::Scene scene;
-  scenes::mesh::add_imports({{.file = file.string()}}, scene);
+  scenes::mesh::add_imports({{.file = file.string()}}, Eigen::Vector3d::Zero(), scene);
 }
 
 /// As the image of a mesh's material is read.

@@ -37,7 +37,7 @@ class ImportedFiles : public testing::Test {
   Scene imported(const ImportConfig& config) {
     Scene scene;
     scene.textures = std::vector<cv::Mat>{cv::Mat(kSizePx, kSizePx, CV_8UC3, cv::Scalar(0, 0, 0))};
-    lines_ = add_imports({config}, scene);
+    lines_ = add_imports({config}, Eigen::Vector3d::Zero(), scene);
     return scene;
   }
 

@@ -57,7 +57,7 @@ TEST_F(MeshFormats, SubtractsTheOriginOfGeoreferencedCoordinatesInDoublePrecisio
   const Vector3d p(448262.25, 5262012.75, 512.4);
   const ImportConfig config{.file = write("utm.obj", cube(p, 1.5, false, 1)),
                             .north_m = 9.0,
-                            .origin_ENU = {448260.0, 5262010.0, 510.0},
+                            .origin_ENU = Vector3d(448260.0, 5262010.0, 510.0),
                             .up = ImportConfig::Up::z};
   const Eigen::AlignedBox3f box = bounds(imported(config));
   // North 9 + 2.75, east 2.25, up 2.4, each +- 1.5. A float of 5,262,012 has steps of 0.5 m.

@@ -74,7 +74,7 @@ double correlation(const cv::Mat1f& a, const cv::Mat1f& b) {
 }
 
 std::vector<cv::Mat> all_images() {
-  std::vector<cv::Mat> images = city_textures(kSize, 21).images.images();
+  std::vector<cv::Mat> images = city_textures(kSize, 21, true).images.images();
   for (auto paper : {WallPaper::stripes, WallPaper::brick, WallPaper::damask, WallPaper::plaster}) {
     for (cv::Mat& image : paint_room_walls(paper, kSize, 3, 22)) images.push_back(image);
   }
@@ -103,7 +103,7 @@ TEST(Images, TileSideways) {
 }
 
 TEST(Images, OfGroundTileBothWays) {
-  const CityTextures city = city_textures(kSize, 24);
+  const CityTextures city = city_textures(kSize, 24, true);
   const std::vector<cv::Mat> images = city.images.images();
   for (uint32_t k : {city.streets[0], city.streets[1], city.lots[0], city.lots[1], city.lots[2], city.grass, city.field,
                      city.roofs[0]}) {

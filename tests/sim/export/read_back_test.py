@@ -75,6 +75,21 @@ class ReadBack(unittest.TestCase):
         flu = np.array([R_NB[:, 0], -R_NB[:, 1], -R_NB[:, 2]]).T
         return np.array([east, north, -down]), np.array([flu[1], flu[0], -flu[2]])
 
+    def test_calibrations_read_back_to_the_last_digit(self):
+        def kalibr(*options):
+            done = hedgehop("calibration", self.folder / "exported.yaml", "--format", "kalibr", *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
+
+        files = {"left": self.run_folder / "euroc/mav0/cam1/sensor.yaml", "right": self.run_folder / "euroc/mav0/cam2/sensor.yaml"}
+        for role, file in files.items():
+            camera = f"{{role: {role}, rate: 10, channel: grey, calibration: {file}}}"
+            rig = f"rig={{cameras: [{{role: down, width: 160, height: 160, fov: 90, rate: 50, channel: grey}}, {camera}]}}"
+            self.assertEqual(kalibr("--camera", role, "--set", rig), kalibr("--camera", role))
+        tum = f"{{role: left, rate: 10, channel: grey, calibration: {self.run_folder}/tum/calibration.yaml}}"
+        rig = f"rig={{cameras: [{{role: down, width: 160, height: 160, fov: 90, rate: 50, channel: grey}}, {tum}]}}"
+        self.assertEqual(kalibr("--camera", "left", "--set", rig), kalibr("--camera", "left"))
+
     def test_poses_are_those_of_the_run(self):
         compared = 0
         for row in self.trajectory:

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenes/mesh/tiff_memory.h"
+#include "scenes/terrain/heightmap.h"
+
+namespace hedgehop::scenes::terrain {
+
+namespace {
+
+// Tags and keys of [GeoTIFF11], and GDAL's tag of the value without data.
+constexpr uint32_t kPixelScale = 33550, kTiepoints = 33922, kTransformation = 34264, kGeoKeys = 34735, kNoData = 42113;
+constexpr uint16_t kModelTypeKey = 1024, kRasterTypeKey = 1025;
+constexpr uint16_t kGeographic = 2, kPixelIsPoint = 2;
+
+/// Returns the values of a tag that libtiff itself does not know. Their form depends on whether another library of the
+/// process has declared it.
+template <class T>
+std::vector<T> tag_values(TIFF* tiff, uint32_t tag) {
+  const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
+  if (!field) return {};
+  T* values = nullptr;
+  if (TIFFFieldPassCount(field) == 0) {  // text
+    if (TIFFGetField(tiff, tag, &values) == 0 || !values) return {};
+    size_t length = 0;
+    while (values[length] != T{}) ++length;
+    return {values, values + length};
+  }
+  uint32_t count = 0;
+  uint16_t short_count = 0;
+  const bool is_long = TIFFFieldReadCount(field) == TIFF_VARIABLE2;
+  const int found = is_long ? TIFFGetField(tiff, tag, &count, &values) : TIFFGetField(tiff, tag, &short_count, &values);
+  if (found == 0 || !values) return {};
+  return {values, values + (is_long ? count : short_count)};
+}
+
+/// Returns the value of a geo key, or 0.
+uint16_t geo_key(const std::vector<uint16_t>& directory, uint16_t key) {
+  for (size_t at = 4; at + 4 <= directory.size(); at += 4) {
+    if (directory[at] == key && directory[at + 1] == 0) return directory[at + 3];
+  }
+  return 0;
+}
+
+void read_georeference(TIFF* tiff, Heightmap& map) {
+  const std::vector<uint16_t> keys = tag_values<uint16_t>(tiff, kGeoKeys);
+  if (geo_key(keys, kModelTypeKey) == kGeographic) {
+    throw std::invalid_argument("its coordinates are degrees; valid: a projection in meters, such as UTM");
+  }
+  if (!tag_values<double>(tiff, kTransformation).empty()) {
+    throw std::invalid_argument("its grid has a ModelTransformation; valid: a grid along east and north");
+  }
+  const std::vector<double> scale = tag_values<double>(tiff, kPixelScale), tie = tag_values<double>(tiff, kTiepoints);
+  if (scale.size() < 2) return;
+  map.spacing_EN_m = Eigen::Vector2d(scale[0], scale[1]);
+  if (tie.size() < 6) return;
+  const double to_middle = geo_key(keys, kRasterTypeKey) == kPixelIsPoint ? 0.0 : 0.5;
+  map.northwest_EN_m =
+      Eigen::Vector2d(tie[3] + (to_middle - tie[0]) * scale[0], tie[4] - (to_middle - tie[1]) * scale[1]);
+}
+
+/// Returns the OpenCV type of the samples.
+int sample_type(TIFF* tiff) {
+  uint16_t bits = 1, format = SAMPLEFORMAT_UINT, bands = 1;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &bands);
+  if (bands == 1) {
+    if (format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64)) return bits == 32 ? CV_32F : CV_64F;
+    if (format == SAMPLEFORMAT_INT && (bits == 16 || bits == 32)) return bits == 16 ? CV_16S : CV_32S;
+    if (format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16)) return bits == 8 ? CV_8U : CV_16U;
+  }
+  throw std::invalid_argument("it has " + std::to_string(bands) + " bands of " + std::to_string(bits) +
+                              " bit; valid: one band of floats, or of integers of 8, 16 or 32 bit");
+}
+
+/// Reads the blocks of a TIFF: its tiles, or its strips as tiles of full width.
+cv::Mat read_blocks(TIFF* tiff, int columns, int rows, int type) {
+  const bool tiled = TIFFIsTiled(tiff) != 0;
+  uint32_t width = static_cast<uint32_t>(columns), height = static_cast<uint32_t>(rows);
+  if (tiled) {
+    TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
+    TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
+  } else {
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ROWSPERSTRIP, &height);
+    height = std::min(height, static_cast<uint32_t>(rows));
+  }
+  constexpr uint32_t kMaxBlockSide = 4096;
+  if (width == 0 || height == 0 || width > kMaxBlockSide || height > kMaxBlockSide) {
+    throw std::invalid_argument("its blocks are larger than 4096 x 4096 samples");
+  }
+  cv::Mat all(rows, columns, type), block(static_cast<int>(height), static_cast<int>(width), type);
+  const auto bytes = static_cast<tmsize_t>(block.total() * block.elemSize());
+  for (int top = 0; top < rows; top += block.rows) {
+    for (int left = 0; left < columns; left += block.cols) {
+      const auto x = static_cast<uint32_t>(left), y = static_cast<uint32_t>(top);
+      const uint32_t index = tiled ? TIFFComputeTile(tiff, x, y, 0, 0) : TIFFComputeStrip(tiff, y, 0);
+      const tmsize_t got = tiled ? TIFFReadEncodedTile(tiff, index, block.data, bytes)
+                                 : TIFFReadEncodedStrip(tiff, index, block.data, bytes);
+      const cv::Rect part(left, top, std::min(block.cols, columns - left), std::min(block.rows, rows - top));
+      const auto needed = static_cast<tmsize_t>(block.elemSize()) * (tiled ? block.cols : part.width) * part.height;
+      if (got < needed) throw std::invalid_argument("it cannot be decoded as TIFF");
+      block(cv::Rect(0, 0, part.width, part.height)).copyTo(all(part));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Heightmap heights_of_tiff(std::span<const uint8_t> bytes) {
+  const mesh::TiffInMemory opened(bytes);
+  TIFF* const tiff = opened.get();
+  if (!tiff) throw std::invalid_argument("it is no PNG and no TIFF");
+  uint32_t columns = 0, rows = 0;
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &columns);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &rows);
+  require_grid(columns, rows);
+  Heightmap map;
+  map.in_meters = true;
+  const cv::Mat samples = read_blocks(tiff, static_cast<int>(columns), static_cast<int>(rows), sample_type(tiff));
+  samples.convertTo(map.values, CV_32F);
+  read_georeference(tiff, map);
+  if (const std::vector<char> text = tag_values<char>(tiff, kNoData); !text.empty()) {
+    const auto none = static_cast<float>(std::strtod(std::string(text.begin(), text.end()).c_str(), nullptr));
+    for (float& value : map.values) {
+      if (value == none) value = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return map;
+}
+
+}  // namespace hedgehop::scenes::terrain
