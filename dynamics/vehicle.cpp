@@ -1,5 +1,7 @@
 #include "dynamics/vehicle.h"
 
+#include "dynamics/plausible_units.h"
+
 namespace hedgehop::dynamics {
 namespace {
 
@@ -8,7 +10,12 @@ using AnyFlight = std::variant<helicopter::HelicopterFlight, multicopter::Multic
 AnyFlight make_flight(const helicopter::HelicopterConfig& config) { return helicopter::HelicopterFlight(config); }
 AnyFlight make_flight(const multicopter::MulticopterConfig& config) { return multicopter::MulticopterFlight(config); }
 AnyFlight make_flight(const VehicleConfig& config) {
-  return std::visit([](const auto& c) { return make_flight(c); }, config);
+  return std::visit(
+      [](const auto& c) {
+        require_plausible_units(c);
+        return make_flight(c);
+      },
+      config);
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
 #include "dynamics/helicopter/helicopter_flight.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "dynamics/helicopter/trim.h"
+#include "dynamics/plausible_units.h"
 #include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics::helicopter {
@@ -44,6 +47,17 @@ BladeAngles blade_angles(const HelicopterFlightState& state) {
   return {s[0].position_rad, s[1].position_rad, s[2].position_rad, s[3].position_rad};
 }
 
+/// Returns "the tail collective must be 11.1 deg, its stops are -20 and 5 deg".
+std::string stop_words(size_t servo, double angle_rad, const ServoConfig& config) {
+  constexpr std::array<const char*, 4> kNames = {"main collective", "lateral cyclic", "longitudinal cyclic",
+                                                 "tail collective"};
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "the %s must be %.3g deg, its stops are %.4g and %.4g deg", kNames[servo],
+                angle_rad * kDegPerRad, config.lowest_rad * kDegPerRad, config.highest_rad * kDegPerRad);
+  return text.data() + stop_unit_advice(config.lowest_rad, config.highest_rad);
+}
+
 }  // namespace
 
 HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
@@ -57,10 +71,10 @@ HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
 void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
   const std::optional<Trim> hover = trim(model_, -wind_W, heading_rad);
   if (!hover) {
-    const double weight_n = model_.mass.mass_kg * kGravityMps2;
+    const double weight_n = model_.mass.mass_kg * kGravityMps2, max_lift_n = model_.main_rotor.disc.max_thrust_n;
     throw std::invalid_argument("the helicopter has no steady hover in this wind: it weighs " +
                                 std::to_string(weight_n) + " N, its main rotor lifts at most " +
-                                std::to_string(model_.main_rotor.disc.max_thrust_n) + " N");
+                                std::to_string(max_lift_n) + " N" + mass_unit_advice(model_.mass.mass_kg, max_lift_n));
   }
   HelicopterFlightState state{hover->state, {}, {model_.main_rotor.speed_radps, 0.0}};
   state.airframe.body.p_WB = p_WB;
@@ -68,10 +82,7 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
   const std::array<double, 4> blades = to_array(hover->blades);
   for (size_t i = 0; i < blades.size(); ++i) {
     if (blades[i] < servos_[i].lowest_rad || blades[i] > servos_[i].highest_rad) {
-      throw std::invalid_argument("the helicopter cannot hover in this wind: " + std::string(kControlNames[i]) +
-                                  " must be " + std::to_string(blades[i]) + ", the range of its servo is " +
-                                  std::to_string(servos_[i].lowest_rad) + " to " +
-                                  std::to_string(servos_[i].highest_rad));
+      throw std::invalid_argument("the helicopter cannot hover in this wind: " + stop_words(i, blades[i], servos_[i]));
     }
     state.servos[i] = {blades[i], 0.0};
   }

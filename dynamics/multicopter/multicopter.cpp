@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "dynamics/plausible_units.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics::multicopter {
@@ -88,7 +89,8 @@ MulticopterModel make_model(const MulticopterConfig& c) {
           "arms: the vehicle cannot be balanced in a hover, one rotor would need negative thrust");
   require(hover_n.maxCoeff() < highest_thrust_n(c.rotor),
           "the rotors cannot lift the vehicle: a hover requires " + std::to_string(hover_n.maxCoeff()) +
-              " N from one rotor, whose maximum is " + std::to_string(highest_thrust_n(c.rotor)) + " N");
+              " N from one rotor, whose maximum is " + std::to_string(highest_thrust_n(c.rotor)) + " N" +
+              mass_unit_advice(c.mass.mass_kg, highest_thrust_n(c.rotor) * static_cast<double>(c.arms.size())));
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dynamics/multicopter/multicopter_trim.h"
 #include "dynamics/rigid_body.h"
 
 namespace hedgehop::dynamics::multicopter {
@@ -63,7 +64,8 @@ Vector6 trim_residual(const MulticopterModel& model, const MulticopterTrim& t) {
 
 }  // namespace
 
-std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+std::optional<MulticopterTrim> trim_of_any_speed(const MulticopterModel& model, const Eigen::Vector3d& v_air_W,
+                                                 double heading_rad) {
   Vector6 x = Vector6::Zero();
   x[2] = model.mass.mass_kg * kGravityMps2;
   constexpr int kMaxSteps = 60;
@@ -87,10 +89,14 @@ std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::
   }
   constexpr double kSettled = 1e-8;
   const MulticopterTrim found = flight_at(model, x, v_air_W, heading_rad);
-  const bool within = found.state.speeds_radps.allFinite() &&
-                      found.state.speeds_radps.maxCoeff() <= model.rotor.highest_radps &&
-                      found.state.speeds_radps.minCoeff() > 0.0;
-  if (!(f.norm() < kSettled) || !within) return std::nullopt;
+  const bool turning = found.state.speeds_radps.allFinite() && found.state.speeds_radps.minCoeff() > 0.0;
+  if (!(f.norm() < kSettled) || !turning) return std::nullopt;
+  return found;
+}
+
+std::optional<MulticopterTrim> trim(const MulticopterModel& model, const Eigen::Vector3d& v_air_W, double heading_rad) {
+  std::optional<MulticopterTrim> found = trim_of_any_speed(model, v_air_W, heading_rad);
+  if (found && found->state.speeds_radps.maxCoeff() > model.rotor.highest_radps) return std::nullopt;
   return found;
 }
 

@@ -13,6 +13,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/features.h"
 #include "sim/cli/manual.h"
+#include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/drawing.h"
@@ -49,18 +50,6 @@ void add_scenario(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("SCENARIO", scenario.file, "scenario file (YAML)")->required();
   add_layers(command, scenario);
 }
-
-void add_formats(CLI::App& command, bool& json, bool& csv) {
-  CLI::Option* const as_json = command.add_flag("--json", json, "print JSON instead of a table");
-  command.add_flag("--csv", csv, "print comma-separated values")->excludes(as_json);
-}
-
-/// Options of the commands about vehicles.
-struct VehicleOptions {
-  TrimOptions trim;
-  std::string speeds = "0";
-  LinearizeOptions linearize;
-};
 
 // Each function declares one command. Parsing stores the call of the selected command in `chosen`.
 
@@ -173,34 +162,6 @@ void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topi
   command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 }
 
-void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
-  CLI::App* const command =
-      app.add_subcommand("trim", "print or plot a vehicle's trim in level flight against airspeed");
-  command->add_option("VEHICLE", vehicles.trim.vehicle, "vehicle file (YAML)")->required();
-  command->add_option("--speed", vehicles.speeds, "airspeed, or a range FROM:TO:STEP, m/s; default 0")
-      ->type_name("RANGE");
-  add_formats(*command, vehicles.trim.json, vehicles.trim.csv);
-  command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim against airspeed")
-      ->type_name("FILE.html");
-  command->callback([&] {
-    chosen = [&vehicles] {
-      vehicles.trim.speeds_mps = speed_range(vehicles.speeds);
-      return cli::trim(vehicles.trim);
-    };
-  });
-}
-
-void declare_linearize(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
-  CLI::App* const command = app.add_subcommand(
-      "linearize", "print a vehicle's linear model in level flight: A, B, and modes with frequency and damping");
-  command->add_option("VEHICLE", vehicles.linearize.vehicle, "vehicle file (YAML)")->required();
-  command->add_option("--speed", vehicles.linearize.speed_mps, "airspeed, m/s; default 0")
-      ->transform(number())
-      ->type_name("V");
-  add_formats(*command, vehicles.linearize.json, vehicles.linearize.csv);
-  command->callback([&] { chosen = [&vehicles] { return cli::linearize(vehicles.linearize); }; });
-}
-
 void declare_schema(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
   command->callback([&] { chosen = [] { return cli::schema(); }; });
@@ -257,8 +218,7 @@ int parse_and_run(int argc, char** argv) {
   declare_dataset(app, chosen, images);
   declare_report(app, chosen, report);
   declare_list(app, chosen, topic);
-  declare_trim(app, chosen, vehicles);
-  declare_linearize(app, chosen, vehicles);
+  declare_vehicle_commands(app, chosen, vehicles);
   declare_schema(app, chosen);
   declare_manual(app, chosen, format);
   if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : ""; !fault.empty()) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,31 +59,8 @@ struct CalibrationOptions {
 /// Writes the camera calibration of the rig for other programs.
 int calibration(const CalibrationOptions& options);
 
-/// Returns a list of the vehicle files with mass, width and description.
-std::string vehicle_files_text();
-
 /// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
 int list(const std::string& topic);
-
-struct TrimOptions {
-  std::filesystem::path vehicle;
-  std::vector<double> speeds_mps{0.0};
-  bool json = false, csv = false;
-  std::filesystem::path plot;  ///< page of plots to write as well; empty: no file
-};
-/// Prints the trim of level flight at each speed, and plots it.
-int trim(const TrimOptions& options);
-
-struct LinearizeOptions {
-  std::filesystem::path vehicle;
-  double speed_mps = 0.0;
-  bool json = false, csv = false;
-};
-/// Prints A, B and the modes of level flight.
-int linearize(const LinearizeOptions& options);
-
-/// Speeds of "V" or "FROM:TO:STEP", m/s, both ends included. Throws InputError on anything else.
-std::vector<double> speed_range(const std::string& text);
 
 int schema();
 

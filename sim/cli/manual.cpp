@@ -54,6 +54,9 @@ constexpr Example kExamples[] = {
     {"list", "hedgehop list scenario", ""},
     {"trim", "hedgehop trim configs/vehicles/xcell_60.yaml --speed -4:20:4 --plot trim.html", ""},
     {"linearize", "hedgehop linearize configs/vehicles/s900.yaml --speed 5", ""},
+    {"step", "hedgehop step configs/vehicles/xcell_60.yaml --input longitudinal --size 1deg --plot step.html", ""},
+    {"step", "hedgehop step configs/vehicles/s900.yaml --input roll --size 0.5Nm --shape doublet --width 0.3", ""},
+    {"identify", "hedgehop identify configs/vehicles/xcell_60.yaml --input lateral --plot lateral.html", ""},
     {"schema", "hedgehop schema > scenario.schema.json", ""},
     {"manual", "hedgehop manual man | man -l -", ""},
 };

@@ -10,6 +10,7 @@
 #include "sim/batch/flight_table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"

@@ -7,6 +7,7 @@
 
 #include "sim/config/config_tree.h"
 #include "sim/config/numbers.h"
+#include "sim/config/other_units.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -83,7 +84,9 @@ std::string document_fields(const std::vector<ConfigOutline>& fields, int indent
     for (std::string fact : {type_words(field) + unit, bounds_words(field.field), default_words(field)}) {
       if (!fact.empty()) facts.push_back(std::move(fact));
     }
-    text += fmt::format("{:{}}{:{}}  {}  ({})\n", "", indent, field.key, key_width, field.field.meaning,
+    const std::string_view other = other_unit_key(field.key, field.field.unit);
+    const std::string instead = other.empty() ? "" : fmt::format("; or `{}` in its place", other);
+    text += fmt::format("{:{}}{:{}}  {}{}  ({})\n", "", indent, field.key, key_width, field.field.meaning, instead,
                         fmt::join(facts, ", "));
     const ConfigOutline& shape = field.kind == Kind::list ? field.item.at(0) : field;
     if (shape.kind == Kind::group) text += document_fields(shape.parts, indent + 4);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "sim/config/config_tree.h"
+#include "sim/config/other_units.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -62,7 +63,8 @@ class Includer {
   Includer(ErrorList& errors, std::set<fs::path>& read) : errors_(errors), read_(read) {}
 
   /// @param from  position of the `use` that names it; null for the first file.
-  Node load(const fs::path& file, const SourcePosition* from) {
+  /// @param key  of the map that the file gives.
+  Node load(const fs::path& file, const SourcePosition* from, std::string_view key = "") {
     const std::string name = file.lexically_normal().string();
     const SourcePosition position = from ? *from : SourcePosition{name, 0, 0};
     std::error_code error;
@@ -88,29 +90,32 @@ class Includer {
       return {};
     }
     read_.insert(file.lexically_normal());
-    return parse(text, name, file.parent_path(), identity);
+    return parse(text, name, file.parent_path(), identity, key);
   }
 
   /// @param identity  of the file that the text comes from.
-  Node parse(const std::string& text, const std::string& name, const fs::path& folder, const fs::path& identity) {
+  Node parse(const std::string& text, const std::string& name, const fs::path& folder, const fs::path& identity,
+             std::string_view key = "") {
     const size_t errors_before = errors_.count();
     Node root = parse_yaml(text, name, errors_);
     if (root.kind != Node::Kind::map && errors_.count() == errors_before) {
       errors_.add(root.position, fmt::format("expected a map of keys, got {}", root.description()));
     }
+    convert_units(root, key, errors_);
     identities_.push_back(identity);
     names_.push_back(name);
-    expand(root, folder);
+    expand(root, folder, key);
     identities_.pop_back();
     names_.pop_back();
     return root;
   }
 
   /// Replaces every `use` under `node`.
-  void expand(Node& node, const fs::path& folder) {
-    for (Node& item : node.items) expand(item, folder);
+  /// @param key  of the node.
+  void expand(Node& node, const fs::path& folder, std::string_view key) {
+    for (Node& item : node.items) expand(item, folder, "");
     for (Entry& entry : node.entries) {
-      if (entry.key != "use") expand(entry.value, folder);
+      if (entry.key != "use") expand(entry.value, folder, entry.key);
     }
     const auto use =
         std::find_if(node.entries.begin(), node.entries.end(), [](const Entry& e) { return e.key == "use"; });
@@ -123,7 +128,7 @@ class Includer {
                   fmt::format("'use' expects the path of a file, got {}", used.value.description()));
       return;
     }
-    Node base = load(folder / used.value.text, &used.value.position);
+    Node base = load(folder / used.value.text, &used.value.position, key);
     node.incomplete = base.kind != Node::Kind::map;
     if (node.incomplete) return;
     base.position = node.position;
@@ -208,21 +213,24 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
     value = std::move(map);
     keys.pop_back();
   }
-  includer.expand(value, folder);
+  Entry last{std::move(keys.back()), position, std::move(value)};
+  convert_units(last, keys.size() > 1 ? keys[keys.size() - 2] : "", errors);
+  includer.expand(last.value, folder, last.key);
+  keys.back() = last.key;
 
   Node* node = &root;
   std::string path;
   for (size_t i = 0; i < keys.size(); ++i) {
     // Another choice discards the keys of the previous choice.
     // `plugin` keeps the module's name, which may have been set before.
-    if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], value)) {
+    if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], last.value)) {
       node->entries.clear();
     }
     node = step_into(*node, keys[i], path, position, errors);
     if (!node) return;
     path = join_path(path, keys[i]);
   }
-  *node = std::move(value);
+  *node = std::move(last.value);
 }
 
 }  // namespace

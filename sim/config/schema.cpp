@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "sim/config/other_units.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -131,6 +133,10 @@ Json closed_map(const std::vector<ConfigOutline>& fields, std::string_view selec
   properties["use"] = {{"type", "string"}, {"description", "file whose map this one is laid over"}};
   for (const ConfigOutline& field : fields) {
     properties[field.key] = schema_of(field, partial);
+    if (const std::string_view other = other_unit_key(field.key, field.field.unit); !other.empty()) {
+      properties[std::string(other)] = {{"type", "number"},
+                                        {"description", fmt::format("in place of {}, in rpm", field.key)}};
+    }
     if (field.field.required && !partial) required.push_back(field.key);
   }
   schema["additionalProperties"] = false;

@@ -134,6 +134,14 @@ dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file) {
   dynamics::VehicleConfig vehicle;
   read_value(root, "", {.meaning = "a vehicle"}, vehicle, errors);
   errors.throw_if_any();
+  try {
+    dynamics::Vehicle{vehicle};  // throws with the reason if the vehicle cannot fly
+  } catch (const fields::InvalidField& error) {
+    const FieldError fault = field_error("", error);
+    throw InputError(fmt::format("{}: {}", position_of(root, fault.path).text(), fault.text()));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
   return vehicle;
 }
 

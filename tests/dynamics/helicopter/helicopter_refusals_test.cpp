@@ -56,7 +56,7 @@ TEST(HelicopterRefusals, NameTheFaultOfAServo) {
 TEST(HelicopterRefusals, NameTheReasonWithoutAHover) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = 80.0; }), HasSubstr("weighs 784.8"));
-  EXPECT_THAT(refusal([](C& c) { c.servos.tail.highest_rad = 0.1; }), HasSubstr("tail_rad must be 0.19"));
+  EXPECT_THAT(refusal([](C& c) { c.servos.tail.highest_rad = 0.1; }), HasSubstr("the tail collective must be 11."));
   EXPECT_THAT(refusal([](C& c) { c.rotor_speed = GovernedEngineConfig{.max_power_w = 500.0}; }),
               HasSubstr("its engine gives 500"));
 }

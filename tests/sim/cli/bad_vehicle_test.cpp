@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Bad{"NegativeMass", "xcell_60", "mass: 8.2 ", "mass: -8.2 ", "mass.mass"},
                     Bad{"TooHeavy", "xcell_60", "mass: 8.2 ", "mass: 80.0 ", "weighs 784.8"},
                     Bad{"TailTooWeak", "xcell_60", "lowest: -20.0, highest: 20.0", "lowest: -20.0, highest: 5.0",
-                        "tail_rad must be 0.19"},
+                        "the tail collective must be 11."},
                     Bad{"UnstableServo", "xcell_60", "damping: 0.5118", "damping: -0.5", "servos.collective.damping"},
                     Bad{"InertiaOfNoBody", "xcell_60", "[0.18, 0.34, 0.28]", "[0.18, 0.34, 0.68]", "inertia"},
                     Bad{"NegativeMassOfAMulticopter", "hummingbird", "mass: 0.716", "mass: -0.716", "mass.mass"},

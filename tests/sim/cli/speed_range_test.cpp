@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/cli/commands.h"
+#include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 
 namespace hedgehop::sim::cli {

@@ -35,6 +35,19 @@ TEST(TrimData, PutsQuantitiesOfAGroupIntoOnePlotOverTheSpeed) {
   EXPECT_EQ(data["panels"][1]["unit"], "N");
 }
 
+TEST(TrimData, DrawsLimitsMarginsAndNamesSpeedsBeyondThem) {
+  TrimPoint within = point(0.0), beyond = point(8.0);
+  within.flight.quantities.push_back({"theta_c", "deg", 10.0, "Main collective", "main collective", -12.0, 18.0});
+  beyond.flight.quantities.push_back({"theta_c", "deg", 20.0, "Main collective", "main collective", -12.0, 18.0});
+  const Json data = trim_data("kite", {within, beyond}, {});
+  ASSERT_EQ(data["panels"].size(), 4u);
+  EXPECT_EQ(data["panels"][2]["limits"].size(), 2u);
+  EXPECT_EQ(data["panels"][2]["limits"][1]["value"], 18.0);
+  EXPECT_EQ(data["panels"][3]["unit"], "%");
+  EXPECT_LT(data["panels"][3]["series"][0]["values"][1].get<double>(), 0.0);
+  EXPECT_THAT(data["notes"].dump(), testing::HasSubstr("Not flyable at 8 m/s: theta_c 20 deg, limit 18 deg"));
+}
+
 TEST(TrimData, ListsSpeedsWithoutATrim) {
   EXPECT_THAT(trim_data("kite", {point(0.0)}, {20.0, 22.5})["notes"].dump(), testing::HasSubstr("20, 22.5 m/s"));
   EXPECT_THAT(trim_data("kite", {point(0.0)}, {})["notes"].dump(), testing::Not(testing::HasSubstr("No steady")));

@@ -2,7 +2,7 @@
 // Plots with a common horizontal axis and cursor. The axis is time unless the data name another one.
 
 const plotHeight = 190;
-/** The horizontal axis: key of its values in a panel, names, unit, and whether points are marked. */
+/** The horizontal axis: key of its values in a panel, names, unit, whether points are marked, and whether it is logarithmic. */
 const timeAxis = {key: 't_s', label: 'time, s', symbol: 't', unit: 's', points: false};
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
@@ -126,7 +126,7 @@ class Charts {
     const looks = seriesLooks(panel.series), {label: xLabel, symbol, unit, points} = this.axis;
     return {
       width: host.clientWidth || 400, height: plotHeight,
-      scales: {x: {time: false}, y: {range: valueRange(panel)}},
+      scales: {x: {time: false, distr: this.axis.log ? 3 : 1}, y: {range: valueRange(panel)}},
       cursor: {y: false, drag: {x: true, y: false}, points: {size: 6}, bind: {
         mouseup: (u, target, handler) => (event) => {
           const clicked = u.select.width < 3;
@@ -144,7 +144,7 @@ class Charts {
         {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map((v) => short(v))}],
       series: [{label: symbol, value: (u, v) => v === null ? '' : `${v.toFixed(2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
-          label, stroke: looks[i].color, width: looks[i].width, points: points ? {show: true, size: 5, fill: looks[i].color} : {show: false},
+          label, stroke: looks[i].color, width: looks[i].width, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},
           paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,
           value: (u, v) => v === null || v === undefined ? '–' : short(v)}))],
       hooks: {

@@ -1,0 +1,100 @@
+#include "dynamics/plausible_units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "dynamics/hull.h"
+#include "sim/fields/invalid_field.h"
+
+namespace hedgehop::dynamics {
+namespace {
+
+constexpr double kRadpsPerRpm = 2.0 * std::numbers::pi / 60.0;
+constexpr double kSoundMps = 340.0;
+constexpr double kSlowTipMps = 20.0;  // chosen: below it no rotor of a few blades lifts its vehicle
+
+/// printf into a std::string.
+template <class... T>
+std::string text(const char* format, T... values) {
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+
+/// Returns advice for a radius that would be plausible in another unit.
+std::string radius_advice(double tip_mps, double radius_m) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"in", 0.0254}, {"cm", 0.01}, {"mm", 0.001}};
+  for (const auto& [unit, meters] : kUnits) {
+    const double tip = tip_mps * meters;
+    if (tip > kSlowTipMps && tip < kSoundMps) {
+      return text("; a radius of %.4g %s is %.4g m", radius_m, unit, radius_m * meters);
+    }
+  }
+  return "";
+}
+
+/// @param rpm_key  the key for the speed in rpm.
+void require_tip_speed(const char* key, const char* rpm_key, double speed_radps, double radius_m) {
+  const double tip_mps = speed_radps * radius_m, tip_by_rpm_mps = tip_mps * kRadpsPerRpm;
+  if (!(tip_mps > kSoundMps)) return;
+  const bool likely_rpm = tip_by_rpm_mps > kSlowTipMps && tip_by_rpm_mps < kSoundMps;
+  const std::string advice = likely_rpm ? text("; %.6g rpm is %.3g rad/s; did you mean `%s: %.6g`?", speed_radps,
+                                               speed_radps * kRadpsPerRpm, rpm_key, speed_radps)
+                                        : radius_advice(tip_mps, radius_m);
+  throw fields::InvalidField(
+      key, text("%.6g: tip speed %.4g m/s", speed_radps, tip_mps) + (advice.empty() ? ", faster than sound" : advice));
+}
+
+/// @param size_m  radius of a sphere about the mass center that contains the vehicle.
+void require_inertia(const MassConfig& mass, double size_m) {
+  const double largest = mass.inertia_kgm2.maxCoeff();
+  const double gyration_m = std::sqrt(largest / mass.mass_kg);
+  constexpr double kRoughHull = 2.0;  // dimensions of the hull are rough
+  if (!(gyration_m > kRoughHull * size_m)) return;
+  std::string advice;
+  constexpr std::pair<const char*, double> kUnits[] = {{"kg cm2", 1e-4}, {"kg mm2", 1e-6}, {"g cm2", 1e-7}};
+  for (const auto& [unit, factor] : kUnits) {
+    const double gyration = std::sqrt(largest * factor / mass.mass_kg);
+    if (advice.empty() && gyration < size_m) {
+      advice = text("; %.6g %s is %.4g kg m2", largest, unit, largest * factor);
+    }
+  }
+  throw fields::InvalidField(
+      "mass.inertia", text("%.6g: radius of gyration %.3g m, but the vehicle ends %.3g m from its mass center", largest,
+                           gyration_m, size_m) +
+                          advice);
+}
+
+}  // namespace
+
+void require_plausible_units(const helicopter::HelicopterConfig& config) {
+  require_tip_speed("main_rotor.speed", "rpm", config.main_rotor.speed_radps, config.main_rotor.radius_m);
+  const double reach_m = config.tail_rotor.arm_m + config.tail_rotor.radius_m;
+  require_inertia(config.mass, std::max(config.main_rotor.radius_m, reach_m));
+}
+
+void require_plausible_units(const multicopter::MulticopterConfig& config) {
+  require_tip_speed("rotor.highest_speed", "highest_rpm", config.rotor.highest_radps, config.rotor.radius_m);
+  double longest_m = 0.0;
+  for (const multicopter::ArmConfig& arm : config.arms) longest_m = std::max(longest_m, arm.length_m);
+  require_inertia(config.mass, longest_m + config.rotor.radius_m);
+}
+
+std::string mass_unit_advice(double mass_kg, double max_lift_n) {
+  constexpr double kFarTooHeavy = 30.0, kGramsPerKg = 1000.0;
+  const double weight_n = mass_kg * kGravityMps2;
+  if (!(weight_n > kFarTooHeavy * max_lift_n && weight_n < kGramsPerKg * max_lift_n)) return "";
+  return text("; a mass of %.6g g is %.4g kg", mass_kg, mass_kg / kGramsPerKg);
+}
+
+std::string stop_unit_advice(double lowest_rad, double highest_rad) {
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi, kMaxDeg = 0.8;  // 0.8 rad is 45 deg
+  const double written = highest_rad * kDegPerRad;
+  if (!(written > 0.0 && written < kMaxDeg && std::abs(lowest_rad) * kDegPerRad < kMaxDeg)) return "";
+  return text("; %.3g rad is %.3g deg", written, written * kDegPerRad);
+}
+
+}  // namespace hedgehop::dynamics

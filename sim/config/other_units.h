@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "sim/config/config_tree.h"
+#include "sim/config/input_error.h"
+
+/// Keys that give a value in another unit than the field's: `rpm` in `main_rotor` stands for `speed` in rad/s.
+namespace hedgehop::sim {
+
+/// Renames these keys in an input, before it overrides another, and converts their values.
+/// @param key  of the node. @param errors  gains each map with both keys.
+void convert_units(Node& node, std::string_view key, ErrorList& errors);
+/// As above, for an entry and the values in it. @param map  key of the map that has the entry.
+void convert_units(Entry& entry, std::string_view map, ErrorList& errors);
+
+/// Returns the key that gives a field in another unit; empty if there is none.
+std::string_view other_unit_key(std::string_view key, std::string_view unit);
+
+}  // namespace hedgehop::sim

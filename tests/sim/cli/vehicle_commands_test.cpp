@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/sim/cli/ask.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kVehicles = HEDGEHOP_SOURCE_DIR "/configs/vehicles/";
+
+/// Writes a vehicle file that changes another. Each test has its own file because tests run in parallel.
+std::string vehicle_file(const std::string& name, const std::string& text) {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("vehicle_commands_" + name + ".yaml");
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+std::string weak_collective(const std::string& name) {
+  return vehicle_file(name, "use: " + kVehicles + "xcell_60.yaml\nservos: {collective: {lowest: -2, highest: 8.5}}\n");
+}
+
+TEST(Trim, MarksRowsBeyondTheControlStopsAndPrintsMargins) {
+  const Answer answer = ask("trim " + weak_collective("table") + " --speed 0:28:14");
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("margin"), HasSubstr("  beyond: theta_c"), HasSubstr("limit 8.5 deg"),
+                                 HasSubstr("not flyable, at 28 m/s")));
+  const Json rows = Json::parse(ask("trim " + weak_collective("json") + " --speed 0:28:14 --json 2>/dev/null #").text);
+  EXPECT_EQ(rows[0]["within_limits"], true);
+  EXPECT_GT(rows[0]["margin_percent"]["theta_c"].get<double>(), 0.0);
+  EXPECT_EQ(rows[2]["within_limits"], false);
+  EXPECT_LT(rows[2]["margin_percent"]["theta_c"].get<double>(), 0.0);
+}
+
+TEST(Linearize, PrintsNamesOfModesUnitsAndEigenvectors) {
+  const Answer answer = ask("linearize " + kVehicles + "xcell_60.yaml --speed 12");
+  EXPECT_EQ(answer.status, 0);
+  for (const char* part :
+       {"phugoid", "Dutch roll", "spiral", "heave subsidence", "du/dt [m/s2]", "[rad/s]", "eigenvector"}) {
+    EXPECT_THAT(answer.text, HasSubstr(part));
+  }
+  const Json json = Json::parse(ask("linearize " + kVehicles + "xcell_60.yaml --speed 12 --json").text);
+  EXPECT_EQ(json["A_units"][0][0], "(m/s2)/(m/s)");
+  EXPECT_EQ(json["modes"][0]["eigenvector"].size(), json["states"].size());
+}
+
+TEST(Linearize, ReportsATrimBeyondTheStops) {
+  EXPECT_THAT(ask("linearize " + weak_collective("linear") + " --speed 28").text, HasSubstr("beyond the limits"));
+}
+
+TEST(Step, PrintsTheFullModelNextToTheLinearOneAndWritesAPage) {
+  const std::string page = testing::TempDir() + "/vehicle_commands_step.html";
+  std::filesystem::remove(page);
+  const std::string command = "step " + kVehicles + "xcell_60.yaml --input longitudinal --size 0.2deg";
+  const Answer answer = ask(command + " --duration 2 --plot " + page);
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("q [deg/s]"), HasSubstr("linear"), HasSubstr("q: peak")));
+  EXPECT_TRUE(std::filesystem::exists(page));
+  const Json json = Json::parse(ask(command + " --shape doublet --duration 2 --json").text);
+  EXPECT_EQ(json["t_s"].size(), json["states"]["q"].size());
+}
+
+TEST(Step, RejectsOtherControlsUnitsAndSizesBeyondTheStops) {
+  const std::string command = "step " + kVehicles + "xcell_60.yaml ";
+  EXPECT_THAT(ask(command + "--input pedal --size 1deg").text, HasSubstr("collective, lateral, longitudinal, tail"));
+  EXPECT_THAT(ask(command + "--input tail --size 1").text, HasSubstr("in deg or rad, such as 1deg"));
+  EXPECT_THAT(ask(command + "--input tail --size 1N").text, HasSubstr("in deg or rad"));
+  const Answer beyond = ask(command + "--input longitudinal --size 9deg");
+  EXPECT_EQ(beyond.status, kBadInput);
+  EXPECT_THAT(beyond.text, HasSubstr("beyond the stops -8 and 8 deg"));
+}
+
+TEST(Identify, PrintsTheIdentifiedResponseNextToTheLinearModel) {
+  const Answer answer = ask("identify " + kVehicles + "xcell_60.yaml --input lateral --from 1 --duration 40");
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("p per lateral"), HasSubstr("coherence"), HasSubstr("mismatch")));
+  EXPECT_THAT(ask("identify " + kVehicles + "xcell_60.yaml --input lateral --from 0.1 --duration 40").text,
+              HasSubstr("four periods"));
+}
+
+TEST(Units, ARotorSpeedInRpmIsRecognizedAtItsPlace) {
+  const std::string rotor = "use: " + kVehicles + "gtmax.yaml\nmain_rotor: {radius: 1.54, ";
+  const std::string wrong = vehicle_file("rpm_as_speed", rotor + "speed: 870}\n");
+  const Answer answer = ask("trim " + wrong);
+  EXPECT_EQ(answer.status, kBadInput);
+  EXPECT_THAT(answer.text,
+              AllOf(HasSubstr(wrong + ":2:"),
+                    HasSubstr("870: tip speed 1340 m/s; 870 rpm is 91.1 rad/s; did you mean `rpm: 870`?")));
+  const Json by_rpm = Json::parse(ask("trim " + vehicle_file("rpm", rotor + "rpm: 870}\n") + " --json").text);
+  const Json by_speed =
+      Json::parse(ask("trim " + vehicle_file("speed", rotor + "speed: 91.106186954104}\n") + " --json").text);
+  EXPECT_NEAR(by_rpm[0]["theta_c"].get<double>(), by_speed[0]["theta_c"].get<double>(), 1e-9);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli

@@ -1,0 +1,65 @@
+#include "sim/config/other_units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/config/include.h"
+#include "sim/config/numbers.h"
+
+namespace hedgehop::sim {
+namespace {
+
+constexpr double kRadpsOf870Rpm = 91.106186954104;
+
+/// Returns main_rotor.speed of a text with overrides, rad/s; NaN if it is missing.
+double speed_radps(const std::string& yaml, const std::vector<std::string>& overrides, ErrorList& errors) {
+  std::set<std::filesystem::path> read;
+  Node root = parse_tree(yaml, "vehicle", errors, read);
+  apply_overrides(root, overrides, "vehicle.yaml", errors, read);
+  const Node* const rotor = root.find("main_rotor");
+  const Node* const speed = rotor ? rotor->find("speed") : nullptr;
+  return speed ? parse_number(speed->text, false).member : std::nan("");
+}
+double speed_radps(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
+  ErrorList errors("vehicle");
+  const double speed = speed_radps(yaml, overrides, errors);
+  EXPECT_TRUE(errors.empty()) << yaml;
+  return speed;
+}
+
+TEST(OtherUnits, RpmStandsForTheRotorSpeed) {
+  EXPECT_NEAR(speed_radps("main_rotor: {rpm: 870}"), kRadpsOf870Rpm, 1e-9);
+  EXPECT_NEAR(speed_radps("main_rotor: {radius: 1}", {"main_rotor.rpm=870"}), kRadpsOf870Rpm, 1e-9);
+  EXPECT_NEAR(speed_radps("a: 1", {"main_rotor={rpm: 870}"}), kRadpsOf870Rpm, 1e-9);
+}
+
+TEST(OtherUnits, TheLaterKeyOverridesTheEarlier) {
+  EXPECT_NEAR(speed_radps("main_rotor: {speed: 100}", {"main_rotor.rpm=870"}), kRadpsOf870Rpm, 1e-9);
+  EXPECT_NEAR(speed_radps("main_rotor: {rpm: 870}", {"main_rotor.speed=100"}), 100.0, 1e-9);
+  const auto base = std::filesystem::path(testing::TempDir()) / "other_units_base.yaml";
+  std::ofstream(base) << "main_rotor: {speed: 100}\n";
+  EXPECT_NEAR(speed_radps("use: " + base.string() + "\nmain_rotor: {rpm: 870}"), kRadpsOf870Rpm, 1e-9);
+}
+
+TEST(OtherUnits, BothKeysInOneMapAreAnError) {
+  ErrorList errors("vehicle");
+  speed_radps("main_rotor: {speed: 100, rpm: 870}", {}, errors);
+  EXPECT_EQ(errors.count(), 1u);
+}
+
+TEST(OtherUnits, KeysOfOtherMapsAreNotChanged) {
+  ErrorList errors("vehicle");
+  std::set<std::filesystem::path> read;
+  const Node root = parse_tree("parameters: {rpm: 870}", "vehicle", errors, read);
+  ASSERT_NE(root.find("parameters")->find("rpm"), nullptr);
+  EXPECT_EQ(root.find("parameters")->find("rpm")->text, "870");
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
