@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kCellM = 3.0;
+constexpr double kCellM = 5.0;
 constexpr double kRepairShare = 0.5;
 constexpr double kCutSpread = 0.3;  // of a cell, to each side
 constexpr double kBorderM = 0.05;
