@@ -6,6 +6,7 @@
 #include <assimp/postprocess.h>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -61,6 +62,37 @@ int xml_nesting(std::string_view xml) {
     }
   }
   return deepest;
+}
+
+/// Returns whether a list of indices in a DAE has another character than digits, signs and spaces. The importer would
+/// not end.
+bool has_bad_indices(std::string_view dae) {
+  for (const std::string_view element : {"p", "v", "vcount"}) {
+    const std::string opening = "<" + std::string(element);
+    for (size_t at = dae.find(opening); at != std::string_view::npos; at = dae.find(opening, at + 1)) {
+      const size_t after = at + opening.size();
+      if (after >= dae.size() || (dae[after] != '>' && !std::isspace(static_cast<unsigned char>(dae[after])))) continue;
+      const size_t first = dae.find('>', after);
+      if (first == std::string_view::npos || dae[first - 1] == '/') continue;
+      const size_t last = std::min(dae.find('<', first), dae.size());
+      const std::string_view indices = dae.substr(first + 1, last - first - 1);
+      if (indices.find_first_not_of("0123456789+- \t\r\n") != std::string_view::npos) return true;
+    }
+  }
+  return false;
+}
+
+/// Returns whether each line of the header of a PLY begins with a keyword, up to `end_header`. Without, the importer
+/// would not end.
+bool has_ply_header(const std::string& ply) {
+  static const std::set<std::string_view> kKeywords{"ply", "format", "comment", "obj_info", "element", "property"};
+  std::istringstream lines(ply);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string_view word = std::string_view(line).substr(0, line.find_first_of(" \t\r"));
+    if (word == "end_header") return true;
+    if (!kKeywords.contains(word)) return false;
+  }
+  return false;
 }
 
 /// Returns whether the header of a PLY announces more elements than the file has bytes. The importer would reserve
@@ -133,6 +165,8 @@ std::string require_importable(const std::filesystem::path& mesh) {
     refuse_if(json_nesting(is_binary ? json_of_glb(text) : text) > kMaxNesting, "its JSON " + too_deep);
   }
   refuse_if(suffix == ".dae" && xml_nesting(text) > kMaxNesting, "its XML " + too_deep);
+  refuse_if(suffix == ".dae" && has_bad_indices(text), "its indices (<p>, <v> or <vcount>) are not whole numbers");
+  refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
   refuse_if(suffix == ".obj" && faces(text) > kMaxFaces, "it has more than " + std::to_string(kMaxFaces) + " faces");
   return text;

@@ -10,7 +10,8 @@ namespace hedgehop::scenes::mesh {
 
 /// Throws std::invalid_argument with the reason, without the file's name, if the importer cannot process the file
 /// safely: it is missing, not a regular file or larger than 64 MB; its suffix is not that of an OBJ, glTF, DAE, PLY or
-/// STL file; its JSON or XML is nested deeper than 200; an OBJ has more than 500,000 faces, or a PLY announces more
+/// STL file; its JSON or XML is nested deeper than 200; a DAE
+/// has indices that are not whole numbers; an OBJ has more than 500,000 faces, or a PLY announces more
 /// elements than it has bytes.
 /// @return the contents of the file.
 std::string require_importable(const std::filesystem::path& mesh);

@@ -14,6 +14,7 @@
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/mesh/texture_image.h"
+#include "scenes/terrain/heightmap.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
@@ -94,6 +95,11 @@ constexpr std::array kReaders = {
     Reader{"parameters", "yaml", read_parameters},
     Reader{"mesh_obj", "obj", read_mesh},
     Reader{"mesh_gltf", "gltf", read_mesh},
+    Reader{"mesh_dae", "dae", read_mesh},
+    Reader{"mesh_ply", "ply", read_mesh},
+    Reader{"mesh_stl", "stl", read_mesh},
+    Reader{"mesh_sdf", "sdf", read_mesh},
+    Reader{"heightmap", "image", [](const std::filesystem::path& file) { scenes::terrain::read_heightmap(file); }},
     Reader{"texture", "image", read_texture},
     Reader{"calibration", "txt", read_calibration},
     Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
