@@ -3,6 +3,8 @@
 import pathlib
 import shutil
 import subprocess
+import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -14,8 +16,13 @@ BUILD = ROOT / "build/release"
 class CMakeBuild(build_ext):
     def run(self):
         subprocess.run([ROOT / "scripts/build", "hedgehop", "hedgehop_native", "hedgehop_python"], check=True)
+        built = BUILD / "python/hedgehop"
+        if not (built / f"_native{sysconfig.get_config_var('EXT_SUFFIX')}").exists():
+            raise SystemExit(f"Hedgehop builds its package for Debian's /usr/bin/python3, and pip runs on {sys.executable}. Use "
+                             "a virtual environment of Debian's Python: /usr/bin/python3 -m venv --system-site-packages DIR; "
+                             "if python3-dev, pybind11-dev or python3-numpy is missing: scripts/packages python")
         package = pathlib.Path(self.build_lib) / "hedgehop"
-        shutil.copytree(BUILD / "python/hedgehop", package, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(built, package, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
         (package / "bin").mkdir(exist_ok=True)
         shutil.copy2(BUILD / "sim/cli/hedgehop", package / "bin/hedgehop")
         for library in (BUILD / "lib").glob("*.so"):  # libraries that the program loads from its own folder

@@ -20,6 +20,7 @@ struct Observation {
   pybind11::dict images;  ///< role: array; a view that is valid until the simulation continues
   avoidance::NavigationState navigation;
   avoidance::Goal goal;
+  pybind11::dict image_t_ns;  ///< role: instant of the image
 };
 Observation to_python(const avoidance::Observation& observation);
 

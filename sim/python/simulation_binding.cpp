@@ -102,6 +102,7 @@ class PySimulation {
   std::string trajectory_csv() { return sim::trajectory_csv(judged()); }
   std::string decisions_csv() { return sim::decisions_csv(judged()); }
 
+  const std::string& file() const { return file_; }
   py::list checks_so_far() {
     py::list checks;
     for (const sim::CheckResult& c : get().checks_so_far()) {
@@ -195,6 +196,7 @@ void bind_simulation(py::module_& native) {
       .def("trajectory_csv", &PySimulation::trajectory_csv)
       .def("decisions_csv", &PySimulation::decisions_csv)
       .def("checks_so_far", &PySimulation::checks_so_far)
+      .def("file", &PySimulation::file)
       .def("seen", &PySimulation::seen)
       .def("truth", [](PySimulation& s) { return s.get().truth(); })
       .def("proximity", [](PySimulation& s) { return s.get().proximity(); })

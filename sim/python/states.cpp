@@ -57,23 +57,23 @@ void bind_commands(py::module_& native) {
 void bind_observation(py::module_& native) {
   py::class_<NavigationState>(native, "NavigationState", "The estimated motion of the aircraft, from noisy sensors.")
       .def(py::init<>())
-      .def_readwrite("p_WB_est_m", &NavigationState::p_WB_est)
+      .def_readwrite("p_WB_est_m", &NavigationState::p_WB_est, "position in W")
       .def_property(
           "q_WB_est", [](const NavigationState& n) { return wxyz(n.q_WB_est); },
           [](NavigationState& n, const Eigen::Vector4d& q) {
             n.q_WB_est = {q[0], q[1], q[2], q[3]};
           },
-          "(w, x, y, z)")
-      .def_readwrite("v_WB_B_est_mps", &NavigationState::v_WB_B_est)
-      .def_readwrite("w_WB_B_est_radps", &NavigationState::w_WB_B_est)
+          "attitude in W, (w, x, y, z)")
+      .def_readwrite("v_WB_B_est_mps", &NavigationState::v_WB_B_est, "velocity in B")
+      .def_readwrite("w_WB_B_est_radps", &NavigationState::w_WB_B_est, "angular velocity in B")
       .def_property(
           "q_WB_gyro", [](const NavigationState& n) { return wxyz(n.q_WB_gyro); },
           [](NavigationState& n, const Eigen::Vector4d& q) {
             n.q_WB_gyro = {q[0], q[1], q[2], q[3]};
           },
           "attitude from the gyros only, (w, x, y, z)")
-      .def_readwrite("height_above_ground_m", &NavigationState::height_above_ground_m)
-      .def_readwrite("range_m", &NavigationState::range_m);
+      .def_readwrite("height_above_ground_m", &NavigationState::height_above_ground_m, "from the height sensor")
+      .def_readwrite("range_m", &NavigationState::range_m, "from the range finder; None without a reading");
   py::class_<Goal>(native, "Goal", "The current goal.")
       .def(py::init([](const Eigen::Vector3d& p, double heading_rad) {
              return Goal{p, heading_rad};
@@ -82,15 +82,19 @@ void bind_observation(py::module_& native) {
       .def_readwrite("p_WG_m", &Goal::p_WG)
       .def_readwrite("heading_rad", &Goal::heading_rad);
   py::class_<Observation>(native, "Observation", "The input of a module: images, navigation, goal.")
-      .def(py::init([](int64_t t_ns, py::dict images, const NavigationState& navigation, const Goal& goal) {
-             return Observation{t_ns, std::move(images), navigation, goal};
+      .def(py::init([](int64_t t_ns, py::dict images, const NavigationState& navigation, const Goal& goal,
+                       py::dict image_t_ns) {
+             return Observation{t_ns, std::move(images), navigation, goal, std::move(image_t_ns)};
            }),
-           "t_ns"_a, "images"_a, "navigation"_a, "goal"_a)
-      .def_readonly("t_ns", &Observation::t_ns)
-      .def_property_readonly("t_s", [](const Observation& o) { return seconds(o.t_ns); })
+           "t_ns"_a, "images"_a, "navigation"_a, "goal"_a, "image_t_ns"_a = py::dict())
+      .def_readonly("t_ns", &Observation::t_ns, "current time, ns; images may be older")
+      .def_property_readonly(
+          "t_s", [](const Observation& o) { return seconds(o.t_ns); }, "current time, s")
+      .def_readonly("image_t_ns", &Observation::image_t_ns,
+                    "role: instant of the image, ns, at which its exposure ends")
       .def_readonly("images", &Observation::images, "role: array, valid until the simulation continues")
-      .def_readonly("navigation", &Observation::navigation)
-      .def_readonly("goal", &Observation::goal);
+      .def_readonly("navigation", &Observation::navigation, "estimated motion of the aircraft")
+      .def_readonly("goal", &Observation::goal, "current goal");
 }
 
 /// Returns the unit rays of all pixels in C, rows x cols x 3; NaN outside the image circle.
@@ -126,12 +130,18 @@ void bind_setup(py::module_& native) {
       .def_readonly("role", &CameraNeed::role)
       .def_readonly("channel", &CameraNeed::channel)
       .def_readonly("pinhole", &CameraNeed::pinhole);
-  py::class_<MountedCamera>(native, "MountedCamera", "A calibrated camera. C: right, down, forward.")
-      .def_readonly("role", &MountedCamera::role)
-      .def_readonly("rate_hz", &MountedCamera::rate_hz)
-      .def_property_readonly("width_px", [](const MountedCamera& c) { return c.model.width_px; })
-      .def_property_readonly("height_px", [](const MountedCamera& c) { return c.model.height_px; })
-      .def_property_readonly("lens", [](const MountedCamera& c) { return c.model.lens_name(); })
+  py::class_<MountedCamera>(
+      native, "MountedCamera",
+      "A camera with its calibration and its pose. C: right, down, forward; its origin is the center "
+      "of projection.")
+      .def_readonly("role", &MountedCamera::role, "name of the camera in the rig")
+      .def_readonly("rate_hz", &MountedCamera::rate_hz, "images per second")
+      .def_property_readonly(
+          "width_px", [](const MountedCamera& c) { return c.model.width_px; }, "columns of an image")
+      .def_property_readonly(
+          "height_px", [](const MountedCamera& c) { return c.model.height_px; }, "rows of an image")
+      .def_property_readonly(
+          "lens", [](const MountedCamera& c) { return c.model.lens_name(); }, "type of the lens, as in the rig")
       .def_property_readonly(
           "pinhole",
           [](const MountedCamera& c) {
@@ -141,12 +151,13 @@ void bind_setup(py::module_& native) {
           },
           "focal lengths and principal point; ValueError for another lens")
       .def_property_readonly(
-          "X_BC", [](const MountedCamera& c) { return Eigen::Matrix4d(c.X_BC.matrix()); }, "pose in B, 4 x 4")
+          "X_BC", [](const MountedCamera& c) { return Eigen::Matrix4d(c.X_BC.matrix()); },
+          "pose in B, 4 x 4: p_B = X_BC @ p_C")
       .def("rays", &rays, "unit rays of all pixels in C, rows x columns x 3; NaN outside the image circle");
-  py::class_<VehicleLimits>(native, "VehicleLimits")
-      .def_readonly("speed_mps", &VehicleLimits::speed_mps)
-      .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2)
-      .def_readonly("radius_m", &VehicleLimits::radius_m)
+  py::class_<VehicleLimits>(native, "VehicleLimits", "Limits of the autopilot, and the size of the vehicle.")
+      .def_readonly("speed_mps", &VehicleLimits::speed_mps, "maximum speed")
+      .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2, "maximum acceleration")
+      .def_readonly("radius_m", &VehicleLimits::radius_m, "radius of a sphere about B that contains the hull")
       .def_property_readonly(
           "outline_B_m",
           [](const VehicleLimits& l) {
@@ -158,8 +169,8 @@ void bind_setup(py::module_& native) {
           },
           "boxes that contain the hull, as pairs of corners in B");
   py::class_<Setup>(native, "Setup", "The input of a module before a flight.")
-      .def_readonly("cameras", &Setup::cameras)
-      .def_readonly("limits", &Setup::limits)
+      .def_readonly("cameras", &Setup::cameras, "all cameras of the rig")
+      .def_readonly("limits", &Setup::limits, "limits of the vehicle")
       .def_property_readonly(
           "altitude_band_m",
           [](const Setup& s) -> std::optional<std::pair<double, double>> {
@@ -167,7 +178,7 @@ void bind_setup(py::module_& native) {
             return std::pair{s.altitude_band->min_m, s.altitude_band->max_m};
           },
           "minimum and maximum altitude of the mission; None if the altitude is fixed")
-      .def_readonly("seed", &Setup::seed);
+      .def_readonly("seed", &Setup::seed, "for random numbers of the module");
 }
 
 void bind_policies(py::module_& native) {
@@ -198,8 +209,11 @@ void bind_truth(py::module_& native) {
 }  // namespace
 
 Observation to_python(const avoidance::Observation& observation) {
-  Observation seen{observation.t_ns, {}, observation.navigation, observation.goal};
-  for (const CameraFrame& frame : observation.frames) seen.images[py::str(frame.role)] = view_of(frame.image);
+  Observation seen{observation.t_ns, {}, observation.navigation, observation.goal, {}};
+  for (const CameraFrame& frame : observation.frames) {
+    seen.images[py::str(frame.role)] = view_of(frame.image);
+    seen.image_t_ns[py::str(frame.role)] = frame.t_ns;
+  }
   return seen;
 }
 

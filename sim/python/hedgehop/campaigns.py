@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -10,6 +11,8 @@ import sys
 from ._native import InputError
 from .results import load
 from .simulation import overrides
+
+_PROGRESS = re.compile(r"\d+/\d+[:, ]")  # as in "3/10, 1 failed: city_seed3 reached; about 20 s left"
 
 
 def program():
@@ -29,23 +32,41 @@ def main():
     os.execv(program(), ["hedgehop", *sys.argv[1:]])
 
 
-def _fly(command):
+def _show(line):
+    """Shows a line of progress; on a terminal it replaces the line before."""
+    if sys.stderr.isatty():
+        sys.stderr.write("\r\033[K" + line[: shutil.get_terminal_size().columns - 1])
+    else:
+        sys.stderr.write(line + "\n")
+    sys.stderr.flush()
+
+
+def _fly(command, progress):
     """Runs the program. Ctrl-C stops it; completed flights are kept, and `resume` continues."""
+    lines = []
     with subprocess.Popen([program(), *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                          start_new_session=True) as running:
+                          errors="replace", start_new_session=True) as running:
         try:
-            _, errors = running.communicate()
+            for line in running.stderr:
+                lines.append(line.rstrip("\n"))
+                if progress and _PROGRESS.match(line):
+                    _show(lines[-1])
+            running.wait()
         except KeyboardInterrupt:
             running.send_signal(signal.SIGINT)
             running.wait()
             raise
+        finally:
+            if progress and sys.stderr.isatty() and any(map(_PROGRESS.match, lines)):
+                sys.stderr.write("\n")
+    errors = "\n".join(line for line in lines if not _PROGRESS.match(line)).strip()
     if running.returncode == 2:
-        raise InputError(errors.strip())
+        raise InputError(errors)
     if running.returncode not in (0, 1):
-        raise RuntimeError(errors.strip() or f"hedgehop ended with status {running.returncode}")
+        raise RuntimeError(errors or f"hedgehop ended with status {running.returncode}")
 
 
-def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
+def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False, progress=True):
     """Flies scenarios or campaigns. Returns a record array with one record per flight.
 
     files   a file or a list of files.
@@ -53,6 +74,7 @@ def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
     set     values by key path.
     jobs    number of parallel flights; default: the number of cores.
     resume  whether to reuse results in `out` of the same scenario and build.
+    progress  whether to show on standard error how many flights have ended, and the remaining time.
     """
     files = [files] if isinstance(files, (str, os.PathLike)) else files
     command = ["batch", *(os.fspath(file) for file in files), "--out", os.fspath(out)]
@@ -64,14 +86,16 @@ def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False):
         command += ["--jobs", str(jobs)]
     if resume:
         command.append("--resume")
-    _fly(command)
+    _fly(command, progress)
     return load(out)
 
 
-def sweep(file, out, *, jobs=None):
-    """Flies a sweep and reuses its completed flights. Returns a record array with one record per flight."""
+def sweep(file, out, *, jobs=None, progress=True):
+    """Flies a sweep and reuses its completed flights. Returns a record array with one record per flight.
+    progress  as in batch().
+    """
     command = ["sweep", os.fspath(file), "--out", os.fspath(out)]
     if jobs is not None:
         command += ["--jobs", str(jobs)]
-    _fly(command)
+    _fly(command, progress)
     return load(out)

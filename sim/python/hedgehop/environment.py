@@ -60,7 +60,11 @@ class Env(_Base):
         self._seeds = np.random.default_rng()
         self._result = None
 
+    def __repr__(self):
+        return f"Env({self._simulation!r}, actions={self.action_space!r}, cameras={list(self.cameras)})"
+
     def reset(self, *, seed=None, options=None):
+        """Starts the next flight. Returns (observation, info)."""
         if seed is not None:
             self._seeds = np.random.default_rng(seed)
             if _Base is not object:
@@ -72,6 +76,7 @@ class Env(_Base):
         return self._observe(seen), self._info()
 
     def step(self, action):
+        """Flies to the next decision. Returns (observation, reward, terminated, truncated, info)."""
         action = np.asarray(action, float)
         if action.shape != (4,) or not np.all(np.isfinite(action)):
             raise ValueError(f"an action must be four finite numbers, got {action!r}")
@@ -92,11 +97,13 @@ class Env(_Base):
         return self._observe(seen), float(reward), outcome is not None and not truncated, truncated, self._info()
 
     def render(self):
+        """Returns the color image of the first camera, or None without a render mode."""
         if self.render_mode is None:
             return None
         return self._simulation.image(next(iter(self.cameras)), "color").copy()
 
     def close(self):
+        """Ends the simulation."""
         self._simulation = None
 
     def _goal_distance_m(self, seen):

@@ -42,6 +42,10 @@ class Flight:
     trajectory: np.recarray
     decisions: np.recarray
 
+    def __repr__(self):
+        words = {key: self.result.get(key) for key in ("scenario", "seed", "outcome", "flight_time_s")}
+        return f"Flight({', '.join(f'{key}={value!r}' for key, value in words.items())}, decisions={len(self.decisions)})"
+
 
 def load(folder):
     """Returns the Flight of `hedgehop run`, or the record array of a batch or sweep with one record per flight."""

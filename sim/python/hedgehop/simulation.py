@@ -43,6 +43,10 @@ class Simulation:
         self._native = _native.Simulation(None if file is None else os.fspath(file), text, seed, overrides(set), module,
                                           cameras)
 
+    def __repr__(self) -> str:
+        state = "over" if self.over else f"t_s={self.t_s:.6g}"
+        return f"Simulation({self._native.file()!r}, seed={self.seed}, {state}, cameras={list(self._native.roles())})"
+
     def reset(self, seed: Optional[int] = None) -> _native.Observation:
         """Starts a new flight and returns its first Observation. Without a seed, the same flight is about 40 times faster to start."""
         return self._native.reset(seed)
@@ -83,10 +87,12 @@ class Simulation:
 
     @property
     def t_s(self) -> float:
+        """The time of flight, s."""
         return self._native.t_s()
 
     @property
     def seed(self) -> int:
+        """The seed of the flight."""
         return self._native.seed()
 
     @property

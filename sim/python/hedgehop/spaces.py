@@ -14,6 +14,9 @@ except ImportError:
             self.low, self.high = (np.full(self.shape, bound, self.dtype) for bound in (low, high))
             self._random = np.random.default_rng()
 
+        def __repr__(self):
+            return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
+
         def seed(self, seed=None):
             self._random = np.random.default_rng(seed)
 
@@ -33,6 +36,9 @@ except ImportError:
 
         def __init__(self, spaces):
             self.spaces = dict(spaces)
+
+        def __repr__(self):
+            return f"Dict({self.spaces})"
 
         def seed(self, seed=None):
             for i, space in enumerate(self.spaces.values()):

@@ -32,7 +32,8 @@ class _Recorder:
     def update(self, observation):
         images = {role: image.copy() for role, image in observation.images.items()}
         self.observations.append(Observation(observation.t_ns, images, copy_of(observation.navigation),
-                                             Goal(observation.goal.p_WG_m, observation.goal.heading_rad)))
+                                             Goal(observation.goal.p_WG_m, observation.goal.heading_rad),
+                                             dict(observation.image_t_ns)))
         return HoverCommand()
 
 
@@ -86,7 +87,8 @@ def check_module(cls, scenario, *, decisions=5, **parameters):
     announced = announced() if callable(announced) else announced
     for i, seen in enumerate(observations):
         images = {} if i % 2 else {role: np.zeros_like(image) for role, image in seen.images.items()}
-        answer = survivor.update(Observation(seen.t_ns, images, seen.navigation, seen.goal))
+        times = {role: seen.image_t_ns[role] for role in images}
+        answer = survivor.update(Observation(seen.t_ns, images, seen.navigation, seen.goal, times))
         command = answer.command if isinstance(answer, Decision) else answer
         for name in dir(command):
             if not name.startswith("_"):

@@ -88,12 +88,17 @@ class VectorEnv:
             self._pipes.append(ours)
             self._workers.append(worker)
 
+    def __repr__(self):
+        return f"VectorEnv(num_envs={self.num_envs}, actions={self.single_action_space!r})"
+
     def reset(self, *, seed=None):
+        """Starts the next flight of every environment. Returns (observations, infos)."""
         seeds = np.random.SeedSequence(seed).generate_state(self.num_envs)
         infos = self._order([("reset", int(s)) for s in seeds])
         return self._observations(), infos
 
     def step(self, actions):
+        """Flies every environment to its next decision. Returns (observations, rewards, terminated, truncated, infos)."""
         actions = np.asarray(actions, float)
         if actions.shape != (self.num_envs, 4):
             raise ValueError(f"actions: {actions.shape}; must be ({self.num_envs}, 4)")

@@ -1,5 +1,6 @@
 """Batches and sweeps from Python have the contents of the files of the program."""
 
+import contextlib
 import csv
 import io
 import pathlib
@@ -26,6 +27,14 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(list(table.seed), [1, 2, 3])
         np.testing.assert_array_equal(table.flight_time_s, [float(row["flight_time_s"]) for row in rows])
         self.assertEqual(list(hedgehop.load(self.out).trajectory_hash), list(table.trajectory_hash))
+
+    def test_a_batch_shows_its_progress_on_standard_error(self):
+        for progress, expected in ((True, 2), (False, 0)):
+            shown = io.StringIO()
+            with contextlib.redirect_stderr(shown):
+                hedgehop.batch(CITY, self.out, seeds="1:2", set={**SHORT, "duration": 0.2}, jobs=1, progress=progress)
+            self.assertEqual(len(shown.getvalue().splitlines()), expected, shown.getvalue())
+        self.assertNotIn("1/2", shown.getvalue())
 
     def test_seeds_keep_their_64_bits_and_hashes_their_letters(self):
         table = read_table("seed,trajectory_hash,build\n18446744073709551615,1234567890123456,12345678901234e5\n")

@@ -1,0 +1,15 @@
+# The first step of `cmake --install`: stops with the command that builds the missing files.
+include_guard()
+
+# hedgehop_require_built(<component> <files>): generator expressions may name targets that are added later.
+function(hedgehop_require_built component)
+  install(CODE "foreach(file IN ITEMS ${ARGN})
+  if(NOT EXISTS \"\${file}\")
+    message(FATAL_ERROR \"\${file} is not built. Build everything that is installed, then install again: scripts/build hedgehop_package\")
+  endif()
+endforeach()" COMPONENT ${component})
+endfunction()
+hedgehop_require_built(program "$<TARGET_FILE:hedgehop>" "${PROJECT_BINARY_DIR}/manual/man/hedgehop.1")
+if(HEDGEHOP_PYTHON)
+  hedgehop_require_built(python "$<TARGET_FILE:hedgehop_native>" "$<TARGET_FILE:hedgehop_python>")
+endif()
