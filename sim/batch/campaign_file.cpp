@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/batch/input_files.h"
 #include "sim/batch/seeds.h"
+#include "sim/batch/xml_text.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
@@ -29,16 +31,22 @@ std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::s
   return names;
 }
 
-/// Letters that are safe in a folder's name everywhere.
+/// Letters that are safe in a folder's name everywhere, and all letters beyond ASCII.
 /// @param number  of the group among those whose names give the same folder, from 1.
 std::string folder_name(const std::string& group, int number) {
-  std::string name;
-  for (const char c : group) {
-    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
-    name += safe ? c : '_';
-  }
   constexpr size_t kMaxNameLength = 120;
-  name = name.empty() || name[0] == '.' ? "_" + name : name.substr(0, kMaxNameLength);
+  std::string name;
+  for (std::string_view rest = group; !rest.empty();) {
+    const size_t length = std::max<size_t>(1, utf8_length(rest));
+    const char c = rest[0];
+    const bool safe =
+        length > 1 || std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
+    const std::string_view next = safe ? rest.substr(0, length) : "_";
+    if (name.size() + next.size() > kMaxNameLength) break;
+    name += next;
+    rest.remove_prefix(length);
+  }
+  if (name.empty() || name[0] == '.') name = "_" + name;
   return number == 1 ? name : fmt::format("{}~{}", name, number);
 }
 
@@ -62,19 +70,19 @@ class Gatherer {
   explicit Gatherer(const std::vector<uint64_t>& seeds, const std::vector<std::string>& overrides)
       : seeds_(seeds), overrides_(overrides) {}
 
-  void add_input(const fs::path& input) {
+  void add_input(const fs::path& input, bool recursive) {
     std::error_code error;
     if (!fs::is_directory(input, error)) {
       add_file(input);
       return;
     }
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(input, error)) {
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    const FolderFiles files = files_of(input, recursive);
+    if (files.yaml.empty())
+      batch_.faults.push_back(fmt::format("{}: no *.yaml or *.yml in this folder", input.string()));
+    for (const fs::path& file : files.yaml) add_file(file);
+    if (std::string words = left_out_words(files, used_files()); !words.empty()) {
+      batch_.left_out.push_back(std::move(words));
     }
-    if (files.empty()) batch_.faults.push_back(fmt::format("{}: no *.yaml in this folder", input.string()));
-    std::ranges::sort(files);
-    for (const fs::path& file : files) add_file(file);
   }
 
   /// @param name  of the group; empty: the scenario's name and its overrides. @return the group's name.
@@ -108,7 +116,8 @@ class Gatherer {
   /// @param folder  that the scenarios' paths are relative to.
   void add_flights(const std::vector<CampaignFlights>& all, const fs::path& folder) {
     for (const CampaignFlights& flights : all) {
-      add_scenario(folder / flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_, flights.set, "");
+      add_scenario(folder / flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_,
+                   with_module_paths(flights.set, folder), "");
     }
   }
 
@@ -169,7 +178,8 @@ class Gatherer {
     for (const LeaderboardWorld& world : config.worlds) {
       for (const LeaderboardModule& module : config.modules) {
         if (cell->reason.empty()) {
-          cell->group = add_scenario(folder / world.scenario, seeds, module.set, world.name + " " + module.name);
+          cell->group = add_scenario(folder / world.scenario, seeds, with_module_paths(module.set, folder),
+                                     world.name + " " + module.name);
         }
         ++cell;
       }
@@ -199,8 +209,21 @@ class Gatherer {
     if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
   }
 
+  /// Returns the files that the orders read, canonical.
+  std::set<fs::path> used_files() const {
+    std::set<fs::path> used;
+    std::error_code error;
+    for (const Order& order : batch_.orders) {
+      for (const auto& [file, hash] : order.inputs) {
+        used.insert(fs::weakly_canonical(order.scenario.parent_path() / file, error));
+      }
+    }
+    return used;
+  }
+
   void refuse(Order& order, const InputError& error) {
     order.fault = error.errors().front();
+    order.more_faults.assign(error.errors().begin() + 1, error.errors().end());
     batch_.faults.insert(batch_.faults.end(), error.errors().begin(), error.errors().end());
     add(order);
   }
@@ -237,9 +260,9 @@ Leaderboard leaderboard_of(const LeaderboardConfig& config) {
 }
 
 BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
-                       const std::vector<std::string>& overrides) {
+                       const std::vector<std::string>& overrides, bool recursive) {
   Gatherer gatherer(seeds, overrides);
-  for (const fs::path& input : inputs) gatherer.add_input(input);
+  for (const fs::path& input : inputs) gatherer.add_input(input, recursive);
   return gatherer.take();
 }
 

@@ -34,7 +34,9 @@ void describe(Visitor& v, fields::ConfigOf<LeaderboardModule> auto& c) {
   v("control", c.control,
     {.meaning = "whether it is a blind baseline, which does not count for the difficulty of worlds"});
   v("set", c.set,
-    {.required = true, .meaning = "overrides of each world: vehicle, rig, avoidance; files relative to the world's"});
+    {.required = true,
+     .meaning = "overrides of each world: vehicle, rig, avoidance; `use` relative to the world's file, modules in "
+                "shared libraries relative to this file"});
 }
 
 /// Worlds in which a module is not flown, with the reason.
@@ -130,7 +132,9 @@ void describe(Visitor& v, fields::ConfigOf<CampaignFlights> auto& c) {
   v("seeds", c.seeds,
     {.required = true, .meaning = "seeds such as 1001:1010 or 1001:1003,1007, disjoint from tuned_on"});
   v("tuned_on", c.tuned_on, {.meaning = "tuning seeds of this scenario, instead of the campaign's"});
-  v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
+  v("set", c.set,
+    {.meaning = "overrides of the scenario, each key.path=value; modules in shared libraries relative to this "
+                "file"});
 }
 
 /// A campaign file of `hedgehop batch`, which has the key `flights` or `leaderboard`.
@@ -161,15 +165,17 @@ struct BatchOrders {
   std::optional<Leaderboard> leaderboard;
   std::optional<std::filesystem::path> plan;  ///< file of the last plan that an input names
   std::string tuned_on;                       ///< seeds of the tuning as stated by the files; "" if not stated
-  std::vector<std::string> faults;            ///< one line each; the order of a bad file carries its first fault
+  std::vector<std::string> faults;            ///< one line each; the order of a bad file carries its faults
+  std::vector<std::string> left_out;          ///< one line for each folder of which files are left out
 };
 
-/// Returns the orders of scenario files, campaign files and folders (all `*.yaml` directly in them, sorted by name), in
-/// the order of the inputs.
+/// Returns the orders of scenario files, campaign files and folders (their YAML files, sorted by name), in the order of
+/// the inputs.
 /// @param seeds      replace those of files and campaigns unless empty.
 /// @param overrides  "a.b=value", applied to every scenario after a campaign's own.
+/// @param recursive  whether the subfolders of folders are read, too.
 BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const std::vector<uint64_t>& seeds,
-                       const std::vector<std::string>& overrides);
+                       const std::vector<std::string>& overrides, bool recursive = false);
 
 /// Returns the orders of scenarios, each with its seeds and overrides. @param seeds, overrides  as for read_batch().
 BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,

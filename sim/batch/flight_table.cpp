@@ -10,6 +10,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -178,6 +179,7 @@ std::vector<FlightRecord> records_of(const Table& table) {
   const auto causes = table.words("cause"), passes = table.words("passed");
   const auto clearances = table.numbers("min_obstacle_clearance_m"), times = table.numbers("flight_time_s");
   const auto builds = words_of(table, "build"), truths = words_of(table, "truth_used");
+  const auto renderers = words_of(table, "renderer"), libraries = words_of(table, "libraries");
   std::vector<FlightRecord> records(table.rows());
   for (size_t i = 0; i < records.size(); ++i) {
     FlightRecord& record = records[i];
@@ -188,6 +190,7 @@ std::vector<FlightRecord> records_of(const Table& table) {
     if (record.status != FlightRecord::Status::flown) continue;
     RunResult& result = record.result.emplace();
     result.info.build = builds[i];
+    result.flight.libraries = {.images = libraries[i], .functions = {}, .renderer = renderers[i]};
     result.flight.outcome = parse_outcome(outcomes[i]).value_or(Outcome::fault);
     result.flight.cause = causes[i];
     if (!truths[i].empty()) result.flight.truth_used.push_back(truths[i]);
@@ -222,6 +225,12 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<T
   columns.add_words("truth_used",
                     [](const FlightRecord& r) { return fmt::format("{}", fmt::join(truth_used(r), "; ")); });
   columns.add_words("build", [](const FlightRecord& r) { return build_of(r); });
+  columns.add_words("renderer", [](const FlightRecord& r) {
+    return r.result ? renderer_words(r.result->flight.libraries) : std::string();
+  });
+  columns.add_words("libraries", [](const FlightRecord& r) {
+    return r.result ? library_words(r.result->flight.libraries) : std::string();
+  });
   columns.add_words("command", [](const FlightRecord& r) { return rerun_command(r.order); });
   for (const Figure& figure : kTimes) columns.add_figure(figure, FigureKind::wall_time);
   columns.add_named([](const FlightResult& result) { return metric_figures(result, /*of_wall_time=*/true); });

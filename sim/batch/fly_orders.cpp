@@ -1,7 +1,13 @@
 #include "sim/batch/fly_orders.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string_view>
 
 #include "sim/record/result_files.h"
 
@@ -16,6 +22,9 @@ std::vector<std::string> worker_command(const Order& order, const FlyOptions& op
   const std::string folder = (options.out / order.id).string(), campaign = std::to_string(::getpid());
   command.insert(command.end(), {"--out", folder, "--worker-of", campaign});
   if (!options.reports) command.insert(command.end(), {"--no-video", "--no-report"});
+  if (!options.keep.empty()) {
+    command.insert(command.end(), {"--keep-if-failed", fmt::format("{}", fmt::join(options.keep, ","))});
+  }
   return command;
 }
 
@@ -30,6 +39,19 @@ FlightRecord recall(const Order& order, const std::filesystem::path& folder, boo
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> kept_artifacts(const std::string& text) {
+  constexpr std::string_view kPrefix = "failed=";
+  constexpr std::array<std::string_view, 4> kArtifacts = {"report", "film", "replay", "csv"};
+  if (!text.starts_with(kPrefix)) return {};
+  std::vector<std::string> kept;
+  std::istringstream words(text.substr(kPrefix.size()));
+  for (std::string word; std::getline(words, word, ',');) {
+    if (std::ranges::find(kArtifacts, word) == kArtifacts.end()) return {};
+    kept.push_back(word);
+  }
+  return kept.empty() ? std::nullopt : std::optional(kept);
+}
 
 OrderFlights::OrderFlights(const std::vector<Order>& orders, FlyOptions options, Reuse reuse,
                            Interruption& interruption)

@@ -20,7 +20,11 @@ struct FlyOptions {
   size_t workers = 1;             ///< >= 1
   double limit_s = 0.0;           ///< maximum wall time of a flight, 0 for none
   bool reports = false;           ///< flights leave films and reports
+  std::vector<std::string> keep;  ///< artifacts of failed flights: see kept_artifacts()
 };
+
+/// Returns the artifacts of a text such as "failed=report,film,replay,csv"; none if the text is invalid.
+std::optional<std::vector<std::string>> kept_artifacts(const std::string& text);
 
 /// Which earlier results are reused, so that their orders are not flown again.
 enum class Reuse {

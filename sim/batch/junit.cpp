@@ -2,33 +2,33 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <ctime>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 #include <string_view>
 
+#include "sim/batch/xml_text.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
 
-/// Text that every XML 1.0 parser accepts: a worker's last line may hold any bytes. Line breaks stay.
-std::string printable(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const bool ascii = static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) <= 0x7e;
-    out += ascii || c == '\n' ? c : '?';
-  }
-  return out;
-}
-
 void set(pugi::xml_node node, const char* name, std::string_view value) {
-  node.append_attribute(name).set_value(printable(value).c_str());
+  node.append_attribute(name).set_value(xml_text(value).c_str());
 }
 void set(pugi::xml_node node, const char* name, int value) { node.append_attribute(name).set_value(value); }
 
-std::string number_words(double value) { return std::isfinite(value) ? fmt::format("{:g}", value) : "unknown"; }
+/// Jenkins' XSD permits three decimals and no exponent.
+void set_time(pugi::xml_node node, double time_s) {
+  set(node, "time", fmt::format("{:.3f}", std::isfinite(time_s) ? std::max(0.0, time_s) : 0.0));
+}
 
 /// Results of test cases.
 struct CaseCounts {
@@ -44,7 +44,6 @@ struct CaseCounts {
     set(node, "tests", tests);
     set(node, "failures", failures);
     set(node, "errors", errors);
-    set(node, "skipped", skipped);
   }
 };
 
@@ -52,7 +51,9 @@ struct CaseCounts {
 struct Case {
   std::string name, facts;
   std::string wrong = {};    ///< "failure", "error", "skipped" or ""
-  std::string message = {};  ///< of the element
+  std::string type = {};     ///< of the element
+  std::string message = {};  ///< of the element, one line
+  bool is_complete = false;  ///< whether the facts contain the message; otherwise the body has both
 };
 
 struct Suite {
@@ -71,44 +72,97 @@ struct Suite {
     }
     return counts;
   }
-  void write(pugi::xml_node parent) const {
-    pugi::xml_node suite = parent.append_child("testsuite");
-    set(suite, "name", name);
-    counts().write(suite);
-    set(suite, "time", fmt::format("{}", time_s));
-    pugi::xml_node list;
-    for (const auto& [key, value] : properties) {
-      if (value.empty()) continue;
-      if (!list) list = suite.append_child("properties");
-      pugi::xml_node property = list.append_child("property");
-      set(property, "name", key);
-      set(property, "value", value);
-    }
-    for (const Case& c : cases) {
-      pugi::xml_node node = suite.append_child("testcase");
-      set(node, "classname", name);
-      set(node, "name", c.name);
-      set(node, "time", fmt::format("{}", &c == &cases.front() ? time_s : 0.0));
-      if (!c.wrong.empty()) set(node.append_child(c.wrong.c_str()), "message", c.message);
-      node.append_child("system-out").text().set(printable(c.facts).c_str());
-    }
-  }
 };
 
-Case flight_case(const FlightRecord& record, const std::string& because, const std::string& again) {
-  Case flight{.name = "flight", .facts = fmt::format("{}{}\n{}", outcome_words(record), because, again)};
+/// Returns the names of the cases. Equal names get numbers, because GitLab keeps only the first case of a name.
+std::vector<std::string> distinct_names(const std::vector<Case>& cases) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const Case& one : cases) {
+    std::string name = one.name;
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", one.name, i);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void write_case(pugi::xml_node suite, const std::string& suite_name, const std::string& name, const Case& c,
+                double time_s) {
+  pugi::xml_node node = suite.append_child("testcase");
+  set(node, "classname", suite_name);
+  set(node, "name", name);
+  set_time(node, time_s);
+  if (!c.wrong.empty()) {
+    pugi::xml_node wrong = node.append_child(c.wrong.c_str());
+    set(wrong, "type", c.type);
+    set(wrong, "message", c.message);
+    const bool complete = c.is_complete || c.facts.find(c.message) != std::string::npos;
+    wrong.text().set(xml_text(complete ? c.facts : c.message + "\n" + c.facts).c_str());
+  }
+  node.append_child("system-out").text().set(xml_text(c.facts).c_str());
+}
+
+void write_suite(pugi::xml_node parent, const Suite& suite, const JUnitOrigin& origin) {
+  pugi::xml_node node = parent.append_child("testsuite");
+  const CaseCounts counts = suite.counts();
+  set(node, "name", suite.name);
+  counts.write(node);
+  set(node, "skipped", counts.skipped);
+  set_time(node, suite.time_s);
+  set(node, "timestamp", origin.timestamp);
+  set(node, "hostname", origin.hostname);
+  pugi::xml_node list = node.append_child("properties");
+  for (const auto& [key, value] : suite.properties) {
+    if (value.empty()) continue;
+    pugi::xml_node property = list.append_child("property");
+    set(property, "name", key);
+    set(property, "value", value);
+  }
+  const std::vector<std::string> names = distinct_names(suite.cases);
+  for (size_t i = 0; i < names.size(); ++i) {
+    write_case(node, suite.name, names[i], suite.cases[i], i == 0 ? suite.time_s : 0.0);
+  }
+}
+
+std::string text_of(const std::vector<Suite>& suites, const JUnitOrigin& origin) {
+  CaseCounts all;
+  double time_s = 0.0;
+  for (const Suite& suite : suites) {
+    all.add(suite.counts());
+    time_s += suite.time_s;
+  }
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  set(declaration, "version", "1.0");
+  set(declaration, "encoding", "UTF-8");
+  pugi::xml_node root = document.append_child("testsuites");
+  set(root, "name", "hedgehop");
+  all.write(root);  // without `skipped`, which Jenkins' XSD refuses here
+  set_time(root, time_s);
+  for (const Suite& suite : suites) write_suite(root, suite, origin);
+  std::ostringstream text;
+  document.save(text, "  ", pugi::format_default, pugi::encoding_utf8);
+  return text.str();
+}
+
+Case flight_case(const FlightRecord& record, const std::string& facts) {
+  Case flight{.name = "flight", .facts = facts};
   switch (verdict_of(record)) {
-    case Verdict::not_flown:
-      flight.wrong = record.status == FlightRecord::Status::failed ? "error" : "skipped";
-      flight.message =
-          record.status == FlightRecord::Status::failed ? record.cause : "not flown: the campaign was interrupted";
+    case Verdict::not_flown: {
+      const bool failed = record.status == FlightRecord::Status::failed;
+      flight.wrong = failed ? "error" : "skipped";
+      flight.type = !failed ? "interrupted" : record.order.fault.empty() ? "no_result" : "bad_input";
+      flight.message = failed ? record.cause : "not flown: the campaign was interrupted";
       break;
+    }
     case Verdict::fault:
       flight.wrong = "error";
+      flight.type = "fault";
       flight.message = record.result->flight.cause;
       break;
     case Verdict::unchecked:
       flight.wrong = "skipped";
+      flight.type = "no_checks";
       flight.message = kNoChecks;
       break;
     case Verdict::passed:
@@ -118,34 +172,75 @@ Case flight_case(const FlightRecord& record, const std::string& because, const s
   return flight;
 }
 
-Suite flight_suite(const FlightRecord& record, bool binding) {
-  const std::string again = "re-run: " + rerun_command(record.order);
+/// Whether the cause of a flight is more than its first failed check.
+bool is_cause_of_flight(const FlightResult& result) {
+  return result.outcome != Outcome::reached && (result.outcome != Outcome::timeout || result.goal_distance_m);
+}
+
+/// @param flight  outcome and cause of the flight, if it ended before its goal; else "".
+Case check_case(const CheckResult& check, const std::string& flight, const std::string& again, bool binding) {
+  const std::string measured = check_words(check);
+  Case one{.name = check.name, .facts = measured + "\n" + again};
+  if (check.passed) return one;
+  one.wrong = binding ? "failure" : "skipped";
+  one.type = binding ? "failed_check" : "failed_check_of_a_seed";
+  one.message = measured + (flight.empty() ? "" : fmt::format(" ({})", flight)) +
+                (binding ? "" : "; fails, which counts over the seeds");
+  one.facts = measured + (flight.empty() ? "" : "\nflight: " + flight) + "\n" + again;
+  one.is_complete = true;
+  return one;
+}
+
+Suite flight_suite(const FlightRecord& record, bool binding, const Attachments& attachments) {
+  const Order& order = record.order;
+  const std::string again = "re-run: " + rerun_command(order);
   const std::string cause = record.result ? record.result->flight.cause : "";
   const std::string because = cause.empty() ? "" : fmt::format(" ({})", cause);
-  Suite suite{.name = record.order.id, .time_s = record.result ? record.result->flight.wall_s : 0.0};
-  suite.properties = {{"build", build_of(record)},
-                      {"truth_used", fmt::format("{}", fmt::join(truth_used(record), "; "))}};
-  suite.cases.push_back(flight_case(record, because, again));
+  const bool of_flight = record.result && is_cause_of_flight(record.result->flight);
+  Suite suite{.name = order.id, .time_s = record.result ? record.result->flight.wall_s : 0.0};
+  suite.properties = {{"scenario", order.scenario.string()},
+                      {"group", order.group},
+                      {"seed", order.fault.empty() ? std::to_string(order.seed) : ""},
+                      {"build", build_of(record)},
+                      {"truth_used", fmt::format("{}", fmt::join(truth_used(record), "; "))},
+                      {"command", rerun_command(order)}};
+  if (record.result) {
+    suite.properties.emplace_back("version", record.result->info.version);
+    suite.properties.emplace_back("renderer", renderer_words(record.result->flight.libraries));
+    suite.properties.emplace_back("libraries", library_words(record.result->flight.libraries));
+  }
+  std::string facts = fmt::format("{}{}\n{}", outcome_words(record), because, again);
+  if (!order.fault.empty()) facts = fmt::format("{}\n{}", order.fault, fmt::join(order.more_faults, "\n"));
+  if (record.result && record.result->flight.goal_missed_unchecked)
+    facts += fmt::format("\nwarning: {}", kGoalMissedUnchecked);
+  if (const auto files = attachments.find(order.id); files != attachments.end()) {
+    for (const std::string& file : files->second) facts += fmt::format("\n[[ATTACHMENT|{}]]", file);
+  }
+  suite.cases.push_back(flight_case(record, facts));
   if (!record.result) return suite;
   for (const CheckResult& check : record.result->flight.checks) {
-    const std::string moment = check.t_s ? fmt::format(" at {:.2f} s", *check.t_s) : "";
-    const std::string measured = fmt::format("{} {}{}, must be {} {} {}", number_words(check.value), check.unit, moment,
-                                             check.must, number_words(check.limit), check.unit);
-    Case one{.name = check.name, .facts = measured + "\n" + again};
-    if (!check.passed) {
-      one.wrong = binding ? "failure" : "skipped";
-      one.message = measured + because + (binding ? "" : "; fails, which counts over the seeds");
-    }
-    suite.cases.push_back(one);
+    suite.cases.push_back(check_case(check, of_flight ? cause : "", again, binding));
   }
   return suite;
 }
 
 }  // namespace
 
-std::string junit_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts) {
+JUnitOrigin junit_origin() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  std::array<char, 32> stamp{};
+  std::strftime(stamp.data(), stamp.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return {stamp.data(), host.data()};
+}
+
+std::string junit_text(const std::vector<FlightRecord>& records, const std::vector<GroupVerdict>& verdicts,
+                       const JUnitOrigin& origin, const Attachments& attachments) {
   std::vector<Suite> suites;
-  for (const FlightRecord& record : records) suites.push_back(flight_suite(record, verdicts.empty()));
+  for (const FlightRecord& record : records) suites.push_back(flight_suite(record, verdicts.empty(), attachments));
   if (!verdicts.empty()) {
     Suite& over_seeds = suites.emplace_back(Suite{.name = "over the seeds"});
     over_seeds.properties = {{"build", std::string(build_identity())}};
@@ -153,22 +248,21 @@ std::string junit_text(const std::vector<FlightRecord>& records, const std::vect
       over_seeds.cases.push_back({.name = verdict.check + " " + verdict.group,
                                   .facts = verdict.words,
                                   .wrong = verdict.passed ? "" : "failure",
+                                  .type = "failed_over_the_seeds",
                                   .message = verdict.words});
     }
   }
-  CaseCounts all;
-  for (const Suite& suite : suites) all.add(suite.counts());
-  pugi::xml_document document;
-  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
-  set(declaration, "version", "1.0");
-  set(declaration, "encoding", "UTF-8");
-  pugi::xml_node root = document.append_child("testsuites");
-  set(root, "name", "hedgehop");
-  all.write(root);
-  for (const Suite& suite : suites) suite.write(root);
-  std::ostringstream text;
-  document.save(text, "  ", pugi::format_default, pugi::encoding_utf8);
-  return text.str();
+  return text_of(suites, origin);
+}
+
+std::string junit_of_bad_input(const std::vector<std::string>& faults, const JUnitOrigin& origin) {
+  Suite suite{.name = "input"};
+  suite.properties = {{"build", std::string(build_identity())}};
+  if (faults.empty()) suite.cases.push_back({.name = "valid", .facts = "every file is valid"});
+  for (const std::string& fault : faults) {
+    suite.cases.push_back({.name = fault, .facts = fault, .wrong = "error", .type = "bad_input", .message = fault});
+  }
+  return text_of({suite}, origin);
 }
 
 }  // namespace hedgehop::sim

@@ -10,6 +10,7 @@
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 
@@ -107,10 +108,24 @@ std::set<std::string> builds_of(const std::vector<FlightRecord>& records) {
   return builds;
 }
 
-std::string several_builds_words(const std::vector<FlightRecord>& records) {
+std::string mixture_words(const std::vector<FlightRecord>& records) {
+  std::set<std::string> renderers, libraries;
+  for (const FlightRecord& record : records) {
+    if (record.status != FlightRecord::Status::flown) continue;
+    renderers.insert(renderer_words(record.result->flight.libraries));
+    libraries.insert(library_words(record.result->flight.libraries));
+  }
+  renderers.erase("");  // tables of earlier versions do not name them
+  libraries.erase("");
+  const auto line = [](const std::set<std::string>& all, const char* format) {
+    return all.size() < 2 ? "" : fmt::format(fmt::runtime(format), all.size(), fmt::join(all, "; "));
+  };
   const std::set<std::string> builds = builds_of(records);
-  if (builds.size() < 2) return "";
-  return fmt::format("Flights of {} builds: {}\n", builds.size(), fmt::join(builds, ", "));
+  std::string words =
+      builds.size() < 2 ? "" : fmt::format("Flights of {} builds: {}\n", builds.size(), fmt::join(builds, ", "));
+  words += line(renderers, "Flights with {} renderers, whose images differ: {}\n");
+  words += line(libraries, "Flights with {} versions of libraries: {}\n");
+  return words;
 }
 
 std::optional<RunResult> result_left_by(const Order& order, const std::filesystem::path& folder, bool other_builds) {

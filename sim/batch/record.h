@@ -25,6 +25,7 @@ struct Order {
   std::string scenario_yaml;                  ///< the resolved scenario
   std::map<std::string, std::string> inputs;  ///< files that the flight depends on, with their SHA-256
   std::string fault;                          ///< why it cannot be flown at all, one line; else empty
+  std::vector<std::string> more_faults;       ///< of the same file, one line each
 };
 
 /// The flight's scenario in full, as a worker writes it: with the seed, without film. Throws InputError.
@@ -76,8 +77,9 @@ std::string truth_words(const std::vector<FlightRecord>& records);
 /// The builds that flew them.
 std::set<std::string> builds_of(const std::vector<FlightRecord>& records);
 
-/// Returns a line that names the builds if the flights come from several builds, else "".
-std::string several_builds_words(const std::vector<FlightRecord>& records);
+/// Returns a line each for builds, renderers and versions of libraries of which the flights have several; "" if all
+/// flights were flown alike.
+std::string mixture_words(const std::vector<FlightRecord>& records);
 
 /// Returns the complete result of an earlier flight of the same order: equal resolved scenario, seed, input files and
 /// build. Returns none otherwise, so that the order is flown.

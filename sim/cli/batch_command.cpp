@@ -35,9 +35,14 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
   const std::vector<uint64_t> seeds = options.seeds.empty() ? std::vector<uint64_t>{} : parse_seeds(options.seeds);
   std::optional<Registration> plan;
   if (!options.plan.empty()) plan = read_registration(options.plan);
-  BatchOrders batch = plan                     ? orders_of(*plan, seeds, options.overrides)
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.renderer.empty()) overrides.push_back("drawing.renderer=" + options.renderer);
+  if (options.inputs.empty() && !plan && !overrides.empty()) {
+    throw InputError("batch --failed-only repeats the flights of --out as they are: no --set or --renderer");
+  }
+  BatchOrders batch = plan                     ? orders_of(*plan, seeds, overrides)
                       : options.inputs.empty() ? reread_batch(out / "batch.json")
-                                               : read_batch(options.inputs, seeds, options.overrides);
+                                               : read_batch(options.inputs, seeds, overrides, options.recursive);
   if (!plan) plan = plan_of(batch);
   if (options.min_success) batch.checks.push_back(SuccessRateCheck{*options.min_success, options.confidence});
   if (!options.no_worse_than.empty()) {
@@ -85,10 +90,13 @@ std::filesystem::path own_program() {
   return std::string(path.data(), static_cast<size_t>(length));
 }
 
-int batch(const BatchOptions& options) {
+namespace {
+
+int plan_and_fly_batch(const BatchOptions& options) {
   const std::filesystem::path out = folder_of(options);
   PlannedBatch planned = read_orders(options, out);
-  BatchRun run{.rule = rule_of(options, planned), .junit = options.junit, .json = options.json};
+  BatchRun run{
+      .rule = rule_of(options, planned), .junit = options.junit, .json = options.json, .page = !options.no_report};
   run.conduct = conduct_of(planned.batch, planned.plan, run.rule, options.limit_s);
   run.batch = std::move(planned.batch);
   run.again = options.inputs.empty() && options.plan.empty();
@@ -98,7 +106,14 @@ int batch(const BatchOptions& options) {
              .other_builds = options.reuse_other_builds,
              .workers = options.jobs,
              .limit_s = options.limit_s};
+  if (!options.keep.empty()) run.fly.keep = kept_artifacts(options.keep).value();
   return fly_batch(std::move(run));
+}
+
+}  // namespace
+
+int batch(const BatchOptions& options) {
+  return reporting_bad_input(options.junit, [&] { return plan_and_fly_batch(options); });
 }
 
 }  // namespace hedgehop::sim::cli

@@ -4,10 +4,10 @@
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/fly_orders.h"
+#include "sim/batch/usable_cores.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
@@ -153,10 +153,7 @@ int branch(const BranchOptions& options) {
 
   Interruption interruption;
   CampaignProgress progress(orders.size());
-  const FlyOptions fly{.program = own_program(),
-                       .out = out,
-                       .workers = std::max(1u, std::thread::hardware_concurrency()),
-                       .reports = true};
+  const FlyOptions fly{.program = own_program(), .out = out, .workers = usable_cores(), .reports = true};
   const auto records = fly_shown(orders, fly, interruption, progress);
   progress.close();
   if (interruption.signal() != 0) return kSignalled + interruption.signal();

@@ -3,18 +3,36 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
-#include <thread>
+#include <string_view>
 
+#include "sim/batch/fly_orders.h"
+#include "sim/batch/usable_cores.h"
 #include "sim/cli/commands.h"
+#include "sim/scenario/drawing.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
-size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
+/// Returns the error of a value of --keep; "" if it is valid.
+std::string keep_fault(const std::string& text) {
+  constexpr const char* kValid = "expected failed=report,film,replay,csv, or some of these";
+  const std::string_view prefix = "failed=";
+  if (!text.starts_with(prefix)) return kValid;
+  return kept_artifacts(text) ? "" : kValid;
+}
+
+void add_renderer(CLI::App& command, std::string& renderer) {
+  command
+      .add_option("--renderer", renderer,
+                  "renderer of the camera images: osmesa, egl or tiles; overrides the scenarios'")
+      ->check(CLI::IsMember(std::vector<std::string>(kRendererNames.begin(), kRendererNames.end())));
+}
 
 template <class Options>
 void add_flying(CLI::App& command, Options& options) {
-  command.add_option("-j,--jobs", options.jobs, "number of flights in parallel; default all cores")
+  command
+      .add_option("-j,--jobs", options.jobs,
+                  "number of flights in parallel; default the cores that this process may use (affinity, CPU quota)")
       ->transform(whole_number())
       ->check(CLI::Range(1, 4096));
   command
@@ -29,14 +47,24 @@ void add_flying(CLI::App& command, Options& options) {
 void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("batch", "fly many scenarios, each flight in its own process");
   const auto options = std::make_shared<BatchOptions>();
-  options->jobs = cores();
+  options->jobs = usable_cores();
   auto* const files =
       command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`) or folders");
+  command->add_flag("--recursive", options->recursive, "also read the subfolders of folders");
   command->add_option("--seeds", options->seeds, "seeds of each scenario, such as 1:10 or 1:3,7");
   add_overrides(*command, options->overrides, "override a value of every scenario; may be repeated");
+  add_renderer(*command, options->renderer);
   add_flying(*command, *options);
   command->add_option("--out", options->out, "output folder")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
+  command
+      ->add_option("--keep", options->keep,
+                   "artifacts of failed flights: failed=report,film,replay,csv, or some of these; the JUnit file lists "
+                   "them as [[ATTACHMENT|path]]")
+      ->check([](const std::string& text) { return keep_fault(text); })
+      ->type_name("failed=LIST");
+  command->add_flag("--no-report", options->no_report,
+                    "do not write report.html; `hedgehop report DIR` writes it later");
   command->add_option("--plan", options->plan, "fly a registered plan; deviations are listed")
       ->excludes(files)
       ->type_name("FILE");
@@ -83,11 +111,22 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
 }
 
+void declare_validate(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* const command = app.add_subcommand(
+      "validate", "check scenarios, campaigns and sweeps without flying; exit status 2 if a file is invalid");
+  const auto options = std::make_shared<ValidateOptions>();
+  command->add_option("FILES", options->inputs, "scenarios, campaigns, sweeps or folders")->required();
+  command->add_flag("--recursive", options->recursive, "also read the subfolders of folders");
+  add_overrides(*command, options->overrides, "override a value of every scenario; may be repeated");
+  command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
+  command->callback([&chosen, options] { chosen = [options] { return validate(*options); }; });
+}
+
 void declare_compare(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand(
       "compare", "fly two scenarios on equal seeds until a claim about the second is shown or refuted");
   const auto options = std::make_shared<CompareOptions>();
-  options->jobs = cores();
+  options->jobs = usable_cores();
   command->add_option("BASE", options->base, "baseline scenario")->required();
   command->add_option("CANDIDATE", options->candidate, "scenario of the claim")->required();
   command
@@ -119,8 +158,9 @@ void declare_compare(CLI::App& app, std::function<int()>& chosen) {
 void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; resumes after an interruption");
   const auto options = std::make_shared<SweepOptions>();
-  options->jobs = cores();
+  options->jobs = usable_cores();
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
+  add_overrides(*command, options->overrides, "override a value of the scenario at every point; may be repeated");
   add_flying(*command, *options);
   command->add_option("--out", options->out, "output folder")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
@@ -140,9 +180,13 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
         const bool one_line = std::ranges::none_of(option, [](unsigned char c) { return std::iscntrl(c) != 0; });
         return option.starts_with('-') && one_line ? "" : "expected one line that begins with '-'";
       });
-  command->add_flag("--dry-run", options->dry_run, "with --on slurm: print the batch scripts without submitting them");
+  command->add_flag("--dry-run", options->dry_run,
+                    "print the number of flights, with --on slurm the batch scripts, without flying or submitting");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
-  command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });
+  command->callback([&chosen, options, command] {
+    if (command->get_option("--jobs")->count() > 0) options->task_cores = options->jobs;
+    chosen = [options] { return sweep(*options); };
+  });
 }
 
 void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
@@ -151,7 +195,7 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
                          "search for failing flights and store each as a minimal scenario; resumes after an "
                          "interruption. Exit status: 0 no failure found; 1 failures found; 3 a failure did not repeat");
   const auto options = std::make_shared<FalsifyOptions>();
-  options->jobs = cores();
+  options->jobs = usable_cores();
   command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();
   add_overrides(*command, options->overrides,
                 "override a value of the search file, e.g. --set design.method=random; may be repeated");
@@ -182,7 +226,7 @@ void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand(
       "reproduce", "fly the papers' experiments and compare the figures; resumes after an interruption");
   const auto options = std::make_shared<ReproduceOptions>();
-  options->jobs = cores();
+  options->jobs = usable_cores();
   command->add_option("PAPER", options->papers, "papers, such as garratt2009, or paper files; default all");
   command->add_flag("--quick", options->quick, "fly few seeds, in minutes instead of hours");
   add_flying(*command, *options);
@@ -210,6 +254,7 @@ void declare_bless(CLI::App& app, std::function<int()>& chosen) {
 
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen) {
   declare_batch(app, chosen);
+  declare_validate(app, chosen);
   declare_compare(app, chosen);
   declare_sweep(app, chosen);
   declare_falsify(app, chosen);

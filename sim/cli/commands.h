@@ -34,6 +34,7 @@ struct RunOptions {
   bool no_video = false;
   bool json = false;
   bool no_report = false;
+  std::vector<std::string> keep_if_failed;  ///< of a worker: "report", "film", "replay"; written if the flight fails
   int64_t worker_of = 0;  ///< parent process, whose end ends this run; no progress is shown; 0 for a run by a user
 };
 int run(const RunOptions& options);
@@ -68,6 +69,10 @@ struct BatchOptions {
   std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, folders
   std::string seeds;                          ///< such as 1:10; empty: the seeds of the inputs
   std::vector<std::string> overrides;         ///< "a.b=value", override every scenario
+  std::string renderer;                       ///< of every scenario; empty: the scenarios' own
+  bool recursive = false;                     ///< whether the subfolders of folders are read
+  bool no_report = false;                     ///< whether the page is left out
+  std::string keep;                           ///< such as "failed=report,film"; empty: none
   size_t jobs = 1;                            ///< flights at a time, >= 1
   double limit_s = 0.0;                       ///< maximum wall time of a flight; 0 for no limit
   bool reuse_other_builds = false;            ///< whether to reuse results of other builds
@@ -107,9 +112,21 @@ struct CompareOptions {
 /// same statuses as batch() with a stopping rule.
 int compare(const CompareOptions& options);
 
+struct ValidateOptions {
+  std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, sweeps, folders
+  std::vector<std::string> overrides;         ///< "a.b=value", override every scenario
+  bool recursive = false;                     ///< whether the subfolders of folders are read
+  std::filesystem::path junit;                ///< empty: no file is written
+};
+/// Reads files as a flight would, and places the vehicle, without flying. Prints each file and each error.
+/// @return 0 if all files are valid, 2 otherwise.
+int validate(const ValidateOptions& options);
+
 struct SweepOptions {
   std::filesystem::path file;
+  std::vector<std::string> overrides;             ///< "a.b=value", after the file's own `set`
   size_t jobs = 1;                                ///< flights at a time, >= 1
+  size_t task_cores = 1;                          ///< of a Slurm task
   double limit_s = 0.0;                           ///< maximum wall time of a flight; 0 for no limit
   bool reuse_other_builds = false;                ///< whether to reuse results of other builds
   std::filesystem::path out;                      ///< empty: out/<the file's name>
@@ -121,7 +138,7 @@ struct SweepOptions {
   std::string on = "local";                       ///< or "slurm"
   size_t tasks = 8;                               ///< of the job array
   std::vector<std::string> slurm_options;         ///< for every sbatch
-  bool dry_run = false;                           ///< only print the batch scripts
+  bool dry_run = false;                           ///< only print the flights or the batch scripts
   std::filesystem::path program;                  ///< of the workers, absolute; empty: this one
 };
 /// Flies the remaining flights of a sweep. Results of the same scenario and build are reused.

@@ -18,7 +18,9 @@ BatchOrders orders_of(const CompareOptions& options) {
 
 }  // namespace
 
-int compare(const CompareOptions& options) {
+namespace {
+
+int plan_and_compare(const CompareOptions& options) {
   BatchRun run{.rule = StoppingRule{parse_pair_claim(options.until, options.range_m), options.confidence},
                .junit = options.junit,
                .json = options.json};
@@ -31,6 +33,12 @@ int compare(const CompareOptions& options) {
              .workers = options.jobs,
              .limit_s = options.limit_s};
   return fly_batch(std::move(run));
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  return reporting_bad_input(options.junit, [&] { return plan_and_compare(options); });
 }
 
 }  // namespace hedgehop::sim::cli

@@ -89,7 +89,7 @@ class FalsifyRun {
   /// Prints the failures and returns the exit status.
   int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
     const auto failing = std::ranges::count_if(result.trials, &FalsifyTrial::fails);
-    fmt::print("{}{}", several_builds_words(result.records), truth_words(result.records));
+    fmt::print("{}{}", mixture_words(result.records), truth_words(result.records));
     if (found.empty())
       fmt::print("no failure in {} flights: none was found, which is no proof of safety\n", result.records.size());
     if (!found.empty()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "sim/batch/flight_table.h"
@@ -12,9 +13,11 @@
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/leaderboard_page.h"
 
@@ -47,8 +50,32 @@ std::vector<Table::Column> counted_column(const BatchOutcome& outcome, const std
   return {{.name = "counted", .values = std::move(counted), .whole = true}};
 }
 
-EveryWrite write_files(const std::filesystem::path& out, const std::filesystem::path& junit,
-                       const BatchOutcome& outcome, const std::vector<Table::Column>& columns) {
+/// Returns the kept files of the failed flights.
+Attachments attachments_of(const std::vector<FlightRecord>& records, const BatchRun& run) {
+  const std::multimap<std::string, std::string> files = {{"report", "report.html"},
+                                                         {"film", "video.webm"},
+                                                         {"replay", "replay.html"},
+                                                         {"csv", "trajectory.csv"},
+                                                         {"csv", "decisions.csv"}};
+  const auto whole = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
+  Attachments attachments;
+  for (const FlightRecord& record : records) {
+    if (!record.result || holds(verdict_of(record))) continue;
+    for (const std::string& artifact : run.fly.keep) {
+      const auto [begin, end] = files.equal_range(artifact);
+      for (auto file = begin; file != end; ++file) {
+        const std::filesystem::path path = whole(run.fly.out / record.order.id / file->second);
+        if (!std::filesystem::exists(path)) continue;
+        attachments[record.order.id].push_back(path.lexically_relative(whole(run.junit).parent_path()).string());
+      }
+    }
+  }
+  return attachments;
+}
+
+EveryWrite write_files(const BatchRun& run, const BatchOutcome& outcome, const std::vector<Table::Column>& columns,
+                       const JUnitOrigin& origin) {
+  const std::filesystem::path& out = run.fly.out;
   EveryWrite files;
   const auto attempt = [&files](const std::filesystem::path& file, const std::string& text) {
     files.attempt([&] {
@@ -58,7 +85,9 @@ EveryWrite write_files(const std::filesystem::path& out, const std::filesystem::
   };
   attempt(out / "batch.json", batch_json(outcome, std::string(version())));
   attempt(out / "batch.csv", flight_table(outcome.records, columns).csv());
-  if (!junit.empty()) attempt(junit, junit_text(outcome.records, all_verdicts(outcome)));
+  if (run.junit.empty()) return files;
+  const Attachments attachments = attachments_of(outcome.records, run);
+  attempt(run.junit, junit_text(outcome.records, all_verdicts(outcome), origin, attachments));
   return files;
 }
 
@@ -114,7 +143,34 @@ std::vector<FlightRecord> fly(const BatchRun& run, std::optional<SequentialCount
   return flights.take_records();
 }
 
+/// Warns of flights that missed a goal that no check requires.
+void warn_of_missed_goals(const std::vector<FlightRecord>& records) {
+  const auto missed = [](const FlightRecord& r) { return r.result && r.result->flight.goal_missed_unchecked; };
+  const auto first = std::ranges::find_if(records, missed);
+  if (first == records.end()) return;
+  notice(fmt::format("warning: {} of {} flights {}; the first: {}\n", std::ranges::count_if(records, missed),
+                     records.size(), kGoalMissedUnchecked, first->order.id));
+}
+
 }  // namespace
+
+void write_junit(const std::filesystem::path& file, const std::string& text) {
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  write_file_whole(file, text);
+}
+
+int reporting_bad_input(const std::filesystem::path& junit, const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    try {
+      if (!junit.empty()) write_junit(junit, junit_of_bad_input(error.errors(), junit_origin()));
+    } catch (const std::exception& unwritten) {
+      notice(fmt::format("{}\n", unwritten.what()));
+    }
+    throw;
+  }
+}
 
 void print_failed(const std::vector<FlightRecord>& records) {
   for (const FlightRecord& record : records) {
@@ -148,6 +204,8 @@ int fly_batch(BatchRun run) {
   require_writable(run.fly.out);
   if (!run.junit.empty()) require_writable_file(run.junit);
   for (const std::string& fault : run.batch.faults) notice(fmt::format("{}\n", fault));
+  for (const std::string& line : run.batch.left_out) notice(fmt::format("{}\n", line));
+  const JUnitOrigin origin = junit_origin();
   std::optional<SequentialCount> count;
   if (run.rule) {
     run.batch.orders = seed_by_seed(run.batch.orders);
@@ -157,7 +215,7 @@ int fly_batch(BatchRun run) {
   BatchOutcome outcome = conclude(fly(run, count, interruption), count, run.fly.limit_s);
   outcome.conduct = run.conduct;
   if (interruption.signal() == 0) outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
-  EveryWrite files = write_files(run.fly.out, run.junit, outcome, counted_column(outcome, count));
+  EveryWrite files = write_files(run, outcome, counted_column(outcome, count), origin);
   std::string matrix;
   if (files.well()) files.attempt([&] { matrix = write_matrix(run.fly.out, run.batch.leaderboard, run.again); });
   if (run.json) {
@@ -168,8 +226,9 @@ int fly_batch(BatchRun run) {
   files.raise();
   if (!run.json) {
     fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
-    write_campaign_page(run.fly.out);
+    if (run.page) write_campaign_page(run.fly.out);
   }
+  warn_of_missed_goals(outcome.records);
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   if (!run.batch.faults.empty()) return kBadInput;
   return exit_status(verdict_of(outcome));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/batch/campaign_file.h"
@@ -23,6 +25,7 @@ struct BatchRun {
   bool again = false;  ///< an earlier batch's flights: so is its leaderboard
   std::filesystem::path junit;
   bool json = false;
+  bool page = true;  ///< whether report.html is written
 };
 
 /// Flies orders, reuses the results that are there, and shows each end. Orders that were interrupted are missing.
@@ -33,6 +36,12 @@ std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyO
 /// @return the exit status: 0 holds, 1 fails, 2 a file is bad, 4 undecided, 128 and the signal's number when
 /// interrupted.
 int fly_batch(BatchRun run);
+
+/// Runs a command. If it throws InputError, writes the errors to the JUnit file, too. @param junit  empty: no file.
+int reporting_bad_input(const std::filesystem::path& junit, const std::function<int()>& command);
+
+/// Writes a file and its folders.
+void write_junit(const std::filesystem::path& file, const std::string& text);
 
 /// Prints the cause of each flight without a result, and the command that repeats it.
 void print_failed(const std::vector<FlightRecord>& records);

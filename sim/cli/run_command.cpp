@@ -3,6 +3,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/film.h"
@@ -27,8 +29,8 @@ namespace {
 /// Records the video and shows progress.
 class RunWatcher : public FlightWatcher {
  public:
-  RunWatcher(const Scenario& scenario, const std::filesystem::path& film_file, bool quiet)
-      : film_(scenario.film, film_file), progress_(scenario.name), quiet_(quiet) {}
+  RunWatcher(const std::string& name, const FilmConfig& filming, const std::filesystem::path& film_file, bool quiet)
+      : film_(filming, film_file), progress_(name), quiet_(quiet) {}
 
   double image_rate_hz() const override { return film_.image_rate_hz(); }
   void on_images(const ShownInstant& shown) override { film_.on_images(shown); }
@@ -63,20 +65,20 @@ std::string command_line(const RunOptions& options, const Scenario& scenario) {
 }
 
 void print_check(const CheckResult& check) {
-  const std::string unit = check.unit.empty() ? "" : " " + check.unit;
-  const std::string value = std::isnan(check.value) ? "not known" : fmt::format("{:.4g}{}", check.value, unit);
-  const std::string limit =
-      std::isnan(check.limit) ? "" : fmt::format(", must be {} {:.4g}{}", check.must, check.limit, unit);
-  const std::string moment = check.t_s ? fmt::format("; at {:.2f} s", *check.t_s) : "";
-  fmt::print("  {}  {:<16} {}{}{}\n", check.passed ? "pass" : "FAIL", check.name, value, limit, moment);
+  fmt::print("  {}  {:<16} {}\n", check.passed ? "pass" : "FAIL", check.name, check_words(check));
+}
+
+/// Returns whether a worker keeps an artifact of its flight.
+bool keeps(const RunOptions& options, const char* artifact, bool failed) {
+  return failed && std::ranges::find(options.keep_if_failed, artifact) != options.keep_if_failed.end();
 }
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
                    bool has_report) {
   const bool as_asked = result.outcome == Outcome::timeout && !scenario.goal;
-  fmt::print("{}, seed {}: {}{} after {:.1f} s of flight{}\n", scenario.name, scenario.seed, to_string(result.outcome),
-             result.cause.empty() ? "" : " (" + result.cause + ")", result.flight_time_s,
-             as_asked ? ", its full time" : "");
+  fmt::print("{}, seed {}: {} after {:.1f} s of flight{}\n", scenario.name, scenario.seed, to_string(result.outcome),
+             result.flight_time_s, as_asked ? ", its full time" : "");
+  if (!result.cause.empty()) fmt::print("  cause: {}\n", result.cause);
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
   fmt::print("\n");
@@ -112,11 +114,14 @@ int run(const RunOptions& options) {
                           : options.out;
   require_writable(out);
   const std::filesystem::path film = out / "video.webm";
-  RunWatcher watcher(scenario, film, options.worker_of != 0);
+  FilmConfig filming = scenario.film;
+  filming.enabled = filming.enabled || keeps(options, "film", true);
+  RunWatcher watcher(scenario.name, filming, film, options.worker_of != 0);
   const Flight flight = Simulation(std::move(loaded), &watcher).run();
   watcher.close();
+  const bool failed = !holds(verdict_of(flight.result));
   std::error_code ignored;
-  if (!scenario.film.enabled) std::filesystem::remove(film, ignored);  // an earlier flight's
+  if (!scenario.film.enabled && !keeps(options, "film", failed)) std::filesystem::remove(film, ignored);
 
   const RunInfo info{scenario.name,
                      scenario.seed,
@@ -127,12 +132,17 @@ int run(const RunOptions& options) {
                      command_line(options, scenario),
                      to_yaml(scenario)};
   write_result_files(out, info, flight);
-  bool has_report = !options.no_report;
+  bool has_report = !options.no_report || keeps(options, "report", failed);
+  const bool has_replay = keeps(options, "replay", failed);
   try {
-    if (has_report) write_report(out, run_record(scenario, info, flight));
+    if (has_replay) write_replay(out, run_record(scenario, info, flight));
+    if (has_report) write_report(out, run_record(scenario, info, flight));  // links the replay
   } catch (const PagesAbsent& absent) {
     has_report = false;
     notice(fmt::format("{}\n", absent.what()));
+  }
+  if (flight.result.goal_missed_unchecked && options.worker_of == 0) {
+    notice(fmt::format("warning: {}: {}\n", scenario.name, kGoalMissedUnchecked));
   }
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "sim/batch/junit.h"
 #include "sim/batch/seeds.h"
@@ -37,10 +38,7 @@ EveryWrite write_tables(const SweepRun& run, const SweepOrders& orders, const st
   });
   files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), table); });
   if (run.options.junit.empty()) return files;
-  files.attempt([&] {
-    if (run.options.junit.has_parent_path()) std::filesystem::create_directories(run.options.junit.parent_path());
-    write_file_whole(run.options.junit, junit_text(records, {}));
-  });
+  files.attempt([&] { write_junit(run.options.junit, junit_text(records, {}, junit_origin())); });
   return files;
 }
 
@@ -55,7 +53,7 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
   };
   const auto without = of_verdict(Verdict::unchecked);
   const std::string no_checks = without > 0 ? fmt::format(", {} with {}", without, kNoChecks) : "";
-  fmt::print("{}{}", several_builds_words(records), truth_words(records));
+  fmt::print("{}{}", mixture_words(records), truth_words(records));
   fmt::print("{} flights: {} passed, {} failed a check{}, {} failed to fly, {} missing\n", records.size(),
              of_verdict(Verdict::passed), of_verdict(Verdict::failed) + of_verdict(Verdict::fault), no_checks,
              of_status(FlightRecord::Status::failed), of_status(FlightRecord::Status::missing));
@@ -123,8 +121,10 @@ int on_slurm(const SweepRun& run, size_t flights) {
                      .worker = run.options.program,
                      .junit = run.options.junit.empty() ? "" : std::filesystem::absolute(run.options.junit),
                      .tasks = std::min(run.options.tasks, flights),
-                     .cores = run.options.jobs,
+                     .cores = run.options.task_cores,
                      .limit_s = run.options.limit_s,
+                     .other_builds = run.options.reuse_other_builds,
+                     .overrides = run.options.overrides,
                      .options = run.options.slurm_options};
   if (run.options.dry_run) {
     fmt::print("{}\n{}", array_script(job), merge_script(job));
@@ -134,16 +134,31 @@ int on_slurm(const SweepRun& run, size_t flights) {
   return 0;
 }
 
-}  // namespace
+/// Prints the flights that the command would fly.
+int print_plan(const SweepRun& run, const SweepOrders& orders) {
+  const auto records = gather(orders.orders, {run.out}, run.options.reuse_other_builds);
+  const auto missing = std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status);
+  const std::set<size_t> points(orders.points.begin(), orders.points.end());
+  fmt::print("{} flights of {} points; {} have results in {}\n", records.size(), points.size(),
+             static_cast<int64_t>(records.size()) - missing, run.out.string());
+  if (!orders.orders.empty()) fmt::print("first flight: {}\n", rerun_command(orders.orders.front()));
+  return 0;
+}
 
-int sweep(const SweepOptions& options) {
-  SweepRun run{.options = options, .sweep = read_sweep(options.file), .out = options.out};
+int plan_and_fly_sweep(const SweepOptions& options) {
+  SweepRun run{.options = options, .sweep = read_sweep(options.file, options.overrides), .out = options.out};
   if (run.out.empty()) run.out = std::filesystem::path("out") / options.file.stem();
   require_writable(run.out);
   if (!options.junit.empty()) require_writable_file(options.junit);
   if (const auto* design = std::get_if<OptimizeDesign>(&run.sweep.design)) {
     if (options.on != "local" || !options.shard.empty() || options.merge || options.missing) {
       throw InputError("an optimizer looks at each point before the next: no --on, --shard, --merge or --missing");
+    }
+    if (options.dry_run) {
+      fmt::print(
+          "at most {} points, {} flights each; the optimizer chooses each point from the results of the others\n",
+          design->evaluations, run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1);
+      return 0;
     }
     return fly_optimizer(run, *design);
   }
@@ -162,7 +177,13 @@ int sweep(const SweepOptions& options) {
     fmt::print("{}\n", std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status));
     return 0;
   }
-  return fly_all(run, orders);
+  return options.dry_run ? print_plan(run, orders) : fly_all(run, orders);
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  return reporting_bad_input(options.junit, [&] { return plan_and_fly_sweep(options); });
 }
 
 }  // namespace hedgehop::sim::cli

@@ -10,6 +10,7 @@
 #include "sim/evidence/anytime_valid.h"
 #include "sim/flight/build.h"
 #include "sim/flight/json_reader.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -108,7 +109,7 @@ std::string batch_json(const BatchOutcome& outcome, const std::string& version) 
 
 std::string summary_text(const BatchOutcome& outcome) {
   const std::vector<FlightRecord>& records = outcome.records;
-  std::string text = several_builds_words(records) + truth_words(records) +
+  std::string text = mixture_words(records) + truth_words(records) +
                      fmt::format(
                          "| scenario | flights | passed | 95 % interval{} | reached | collided | timeout | fault | "
                          "missing | minimum clearance, m | median minimum clearance, m | median time, s "
@@ -140,14 +141,10 @@ std::string failure_words(const FlightRecord& record) {
   const FlightResult& result = record.result->flight;
   std::string words(to_string(result.outcome));
   if (!result.cause.empty()) words += " (" + result.cause + ")";
-  const auto figure = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("unknown");
-  };
   for (const CheckResult& check : result.checks) {
     if (check.passed) continue;
-    words += fmt::format("; {} {}, must be {} {} {}", check.name, figure(check.value), check.must, figure(check.limit),
-                         check.unit);
-    if (check.t_s) words += fmt::format(" (at {:.2f} s)", *check.t_s);
+    const std::string failure = check.name + " " + check_words(check);
+    if (failure != result.cause) words += "; " + failure;
   }
   return words;
 }

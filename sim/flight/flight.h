@@ -102,6 +102,7 @@ struct CheckResult {
   std::string unit;
   std::string_view must = "<=";  ///< required relation of value to limit: "<=", ">=" or ">"
   std::optional<double> t_s;     ///< time of the value; nullopt if it is a value of the whole flight
+  std::string cause = {};        ///< of a failure, in addition to the figures, such as the obstacle; may be empty
 };
 
 /// The source of a figure of a flight.
@@ -147,7 +148,10 @@ inline bool holds(Verdict verdict) { return verdict == Verdict::passed || verdic
 
 struct FlightResult {
   Outcome outcome = Outcome::fault;
-  std::string cause;  ///< one line for collided and fault, else empty
+  /// One sentence: how the flight collided, had a fault or missed its goal, else its first failed check; empty if it
+  /// succeeded.
+  std::string cause;
+  bool goal_missed_unchecked = false;  ///< a timeout before the goal, which no check requires
   /// Ground truth in the module's input: "camera 'front': projected corners", "sensor 'gps': exact"; empty if the input
   /// was entirely measured.
   std::vector<std::string> truth_used;
@@ -181,6 +185,7 @@ struct Flight {
   std::vector<DecisionRow> decisions;
   double command_latency_s = 0.0;              ///< from a decision to the effect of its command, >= 0
   MapRecord map;                               ///< empty if the module builds no map
+  ClosestApproach last_obstacle;               ///< nearest obstacle at the end; +inf if none is within range
   std::shared_ptr<const scenes::Scene> scene;  ///< the scene of the flight
 };
 

@@ -47,7 +47,8 @@ Json checks_json(const std::vector<CheckResult>& results) {
                         {"limit", json_number(check.limit)},
                         {"unit", check.unit},
                         {"must", check.must},
-                        {"t_s", json_number(check.t_s.value_or(NAN))}});
+                        {"t_s", json_number(check.t_s.value_or(NAN))},
+                        {"cause", check.cause}});
   }
   return list;
 }
@@ -89,7 +90,8 @@ std::vector<CheckResult> checks_from(const JsonReader& result) {
                       .limit = check.number("limit"),
                       .unit = check.text("unit"),
                       .must = relation_from(check),
-                      .t_s = check.optional_number("t_s")});
+                      .t_s = check.optional_number("t_s"),
+                      .cause = check.has("cause") ? check.text("cause") : ""});
   }
   return checks;
 }
@@ -145,6 +147,7 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
+  json["goal_missed_unchecked"] = result.goal_missed_unchecked;
   json["truth_used"] = result.truth_used;
   json["failures"] = result.failures;
   json["physics_rate_hz"] = result.physics_rate_hz;
@@ -196,6 +199,7 @@ RunResult result_from_json(const Json& json) {
   FlightResult& flight = run.flight;
   flight.outcome = outcome_from(result);
   flight.cause = result.text("cause");
+  flight.goal_missed_unchecked = result.has("goal_missed_unchecked") && result.flag("goal_missed_unchecked");
   flight.truth_used = result.texts("truth_used");
   flight.failures = result.texts("failures");
   flight.physics_rate_hz = result.count("physics_rate_hz");

@@ -37,9 +37,12 @@ void FlightLog::set_signals(const std::vector<avoidance::Signal>& signals) {
   for (const avoidance::Signal& signal : signals) flight_.signals.push_back({signal.name, signal.unit});
   flight_.result.closest_obstacle.distance_m = kInfinity;
   flight_.result.closest_ground.distance_m = kInfinity;
+  flight_.last_obstacle.distance_m = kInfinity;
 }
 
 void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity) {
+  last_solid_ = proximity.nearest_solid;
+  flight_.last_obstacle = {proximity.obstacle_clearance_m, t_s, "", p_WB_true};
   ClosestApproach& obstacle = flight_.result.closest_obstacle;
   if (proximity.obstacle_clearance_m < obstacle.distance_m) {
     const std::string what = proximity.nearest_solid ? scenes::solid_at(scene_, *proximity.nearest_solid).name : "";
@@ -84,6 +87,7 @@ void FlightLog::add(double t_s, const avoidance::Decision& decision) {
 
 Flight FlightLog::flight(double flight_time_s) const {
   Flight flight = flight_;
+  if (last_solid_) flight.last_obstacle.what = scenes::solid_at(scene_, *last_solid_).name;
   FlightResult& result = flight.result;
   for (size_t i = 1; i < flight.trajectory.size(); ++i) {
     result.path_length_m += (flight.trajectory[i].p_WB_true - flight.trajectory[i - 1].p_WB_true).norm();

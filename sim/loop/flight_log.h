@@ -56,6 +56,7 @@ class FlightLog {
   const scenes::Scene& scene_;
   Flight flight_;
   TrajectoryHash hash_;
+  std::optional<size_t> last_solid_;  ///< nearest obstacle on the last tick; scenes::solid_at()
 };
 
 }  // namespace hedgehop::sim

@@ -113,6 +113,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["version"] = std::string(version());
   data["build"] = std::string(build_identity());
   data["builds"] = builds_of(flights.records);
+  data["mixture"] = mixture_words(flights.records);
   data["truth_used"] = truth_words(flights.records);
   data["swept"] = swept_columns(flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
@@ -131,8 +132,12 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["search"] = search_data(folder);
   data["against"] = nullptr;
   if (against) {
-    data["against"] = against_data(flights, read_flights(*against));
+    const FlightList earlier = read_flights(*against);
+    data["against"] = against_data(flights, earlier);
     data["against"]["name"] = against->string();
+    std::vector<FlightRecord> both = flights.records;
+    both.insert(both.end(), earlier.records.begin(), earlier.records.end());
+    data["against"]["mixture"] = mixture_words(both);
   }
   const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   write_file_whole(folder / "report.html", campaign_page(name_of(folder), text));

@@ -78,12 +78,15 @@ cv::Mat strip(const std::deque<Image>& images, double end_s) {
 void write_film_strip(const std::filesystem::path& flight) {
   const FlightResult result = read_result(flight / "result.json").flight;
   const ClosestApproach& closest = result.closest_obstacle;
-  const bool collided = result.outcome == Outcome::collided, approached = std::isfinite(closest.distance_m);
-  if (!collided && !approached) throw std::runtime_error("the flight came near no obstacle");
-  const double end_s = collided ? result.flight_time_s : closest.t_s;
+  const bool approached = std::isfinite(closest.distance_m);
+  // A timeout is explained by its end, a failed check of a flight to its goal by the closest approach.
+  const bool shows_end =
+      result.outcome == Outcome::collided || (result.outcome != Outcome::reached && !holds(verdict_of(result)));
+  if (!shows_end && !approached) throw std::runtime_error("the flight came near no obstacle");
+  const double end_s = shows_end ? result.flight_time_s : closest.t_s;
 
   LoadedScenario loaded = load_flight(flight / "scenario.yaml");
-  if (!collided) loaded.scenario.duration_s = end_s;
+  if (!shows_end) loaded.scenario.duration_s = end_s;
   StripWatcher watcher(loaded.scenario.film.rate_hz);
   const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
   const double clearance_m = again.closest_obstacle.distance_m;
@@ -99,27 +102,31 @@ void write_film_strip(const std::filesystem::path& flight) {
 }  // namespace
 
 std::vector<size_t> worst_flights(const std::vector<FlightRecord>& records, size_t count) {
-  std::vector<std::pair<double, size_t>> collisions, near_misses;
+  std::vector<std::pair<double, size_t>> collisions, failures, near_misses;
   for (size_t row = 0; row < records.size(); ++row) {
-    const FlightRecord& record = records[row];
-    if (verdict_of(record) == Verdict::not_flown) continue;
-    const FlightResult& result = record.result->flight;
+    const Verdict verdict = verdict_of(records[row]);
+    if (verdict == Verdict::not_flown) continue;
+    const FlightResult& result = records[row].result->flight;
+    const double clearance_m = result.closest_obstacle.distance_m;
     if (result.outcome == Outcome::collided) {
       collisions.emplace_back(result.flight_time_s, row);
-    } else if (const double clearance_m = result.closest_obstacle.distance_m; std::isfinite(clearance_m)) {
+    } else if (!holds(verdict)) {
+      failures.emplace_back(clearance_m, row);
+    } else if (std::isfinite(clearance_m)) {
       near_misses.emplace_back(clearance_m, row);
     }
   }
   std::ranges::sort(collisions);
+  std::ranges::sort(failures);
   std::ranges::sort(near_misses);
   const size_t half = (count + 1) / 2;
-  const size_t misses =
-      std::min(near_misses.size(), std::max(count - half, count - std::min(count, collisions.size())));
-  collisions.resize(std::min(collisions.size(), count - misses));
-  near_misses.resize(misses);
+  failures.resize(std::min(failures.size(), std::max(count - half, count - std::min(count, collisions.size()))));
+  collisions.resize(std::min(collisions.size(), count - failures.size()));
+  near_misses.resize(std::min(near_misses.size(), count - failures.size() - collisions.size()));
   std::vector<size_t> rows;
-  for (const auto& [time_s, row] : collisions) rows.push_back(row);
-  for (const auto& [clearance_m, row] : near_misses) rows.push_back(row);
+  for (const auto* kind : {&collisions, &failures, &near_misses}) {
+    for (const auto& [figure, row] : *kind) rows.push_back(row);
+  }
   return rows;
 }
 

@@ -88,9 +88,9 @@ Json total_data(const Json& module, const Json& cells, const FlightList& flights
   return data;
 }
 
-/// Returns lines with the builds of the flights if there are several, the build, and the truth used.
+/// Returns lines with the builds, renderers and libraries if there are several, the build, and the truth used.
 std::string origin_words(const std::vector<FlightRecord>& records) {
-  return fmt::format("{}Build {}, Hedgehop {}\n{}", several_builds_words(records), build_identity(), version(),
+  return fmt::format("{}Build {}, Hedgehop {}\n{}", mixture_words(records), build_identity(), version(),
                      truth_words(records));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +15,7 @@
 #include "sim/pages/plan.h"
 #include "sim/pages/replay_data.h"
 #include "sim/pages/report_page.h"
+#include "sim/scenario/reference_path.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -139,6 +141,25 @@ ReportScenario describe_scenario(const RunRecord& run) {
   return result;
 }
 
+/// Returns the reference trajectories of the checks. One that cannot be read any more is left out.
+Json references_json(const std::vector<CheckConfig>& checks) {
+  Json list = Json::array();
+  for (const CheckConfig& check : checks) {
+    const auto* const path = std::get_if<PathToleranceCheck>(&check);
+    if (!path) continue;
+    try {
+      Json one{{"n", Json::array()}, {"e", Json::array()}};
+      for (const TimedPoint& point : read_reference_path(path->reference).points) {
+        one["n"].push_back(milli(point.p_WB.x()));
+        one["e"].push_back(milli(point.p_WB.y()));
+      }
+      list.push_back(std::move(one));
+    } catch (const std::exception&) {  // the page of an old flight needs no reference
+    }
+  }
+  return list;
+}
+
 std::string title(const RunRecord& run) { return run.result.info.scenario; }
 
 /// Returns the JSON text. Texts of a module may be invalid UTF-8.
@@ -182,6 +203,7 @@ Json report_data(const ReportScenario& scenario, const RunResult& result, const 
 void write_report(const std::filesystem::path& run_folder, const RunRecord& run) {
   nlohmann::ordered_json data = report_data(describe_scenario(run), run.result, run.trajectory, run.decisions);
   data["map"] = run.map;
+  data["references"] = references_json(run.scenario.checks);
   data["has_replay"] = std::filesystem::exists(run_folder / "replay.html");
   write_file_whole(run_folder / "report.html", report_page(title(run), text(data), find_film(run_folder)));
 }

@@ -40,12 +40,15 @@ std::string header(const SlurmJob& job, std::string_view name, std::string_view 
 }
 
 std::string sweep_command(const SlurmJob& job) {
-  const std::string worker = job.worker.empty() ? "" : " --program " + shell_quoted(job.worker.string());
+  std::string options = job.worker.empty() ? "" : " --program " + shell_quoted(job.worker.string());
+  if (job.other_builds) options += " --reuse-other-builds";
+  for (const std::string& text : job.overrides) options += " --set " + shell_quoted(text);
   return fmt::format("{} sweep {} --out {}{}", shell_quoted(job.program.string()), shell_quoted(job.sweep.string()),
-                     shell_quoted(job.out.string()), worker);
+                     shell_quoted(job.out.string()), options);
 }
 
-/// Runs a shell command and returns its output without the final newline.
+/// Runs a shell command and returns its output without the final newline. Throws std::runtime_error with the output in
+/// one line if the command fails.
 std::string output_of(const std::string& command) {
   FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (!pipe) throw std::runtime_error("cannot start a shell");
@@ -54,7 +57,10 @@ std::string output_of(const std::string& command) {
   while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
   const int status = ::pclose(pipe);
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (status != 0) throw std::runtime_error(fmt::format("{}: {}", command, text));
+  if (status != 0) {
+    for (size_t end = 0; (end = text.find('\n', end)) != std::string::npos;) text.replace(end, 1, "; ");
+    throw std::runtime_error(fmt::format("{}: {}", command, text));
+  }
   return text;
 }
 

@@ -41,16 +41,18 @@ Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std
 
 /// A sweep as a job array of an existing Slurm cluster, one shard per task.
 struct SlurmJob {
-  std::filesystem::path program;     ///< hedgehop, absolute path, valid on all nodes
-  std::filesystem::path sweep;       ///< the sweep's file as given; used in the re-run commands of tables
-  std::filesystem::path out;         ///< results folder, absolute, on a disk shared by all nodes
-  std::filesystem::path folder;      ///< working folder, so that relative paths stay valid; absolute
-  std::filesystem::path worker;      ///< program of the workers if not hedgehop itself; absolute or empty
-  std::filesystem::path junit;       ///< written by the merge step; absolute or empty
-  size_t tasks = 1;                  ///< shards, 1..1000 (Slurm's own limit of an array's index)
-  size_t cores = 1;                  ///< per task, equal to its number of workers
-  double limit_s = 0.0;              ///< of a flight; 0 for no limit
-  std::vector<std::string> options;  ///< for every sbatch, such as --partition=night
+  std::filesystem::path program;       ///< hedgehop, absolute path, valid on all nodes
+  std::filesystem::path sweep;         ///< the sweep's file as given; used in the re-run commands of tables
+  std::filesystem::path out;           ///< results folder, absolute, on a disk shared by all nodes
+  std::filesystem::path folder;        ///< working folder, so that relative paths stay valid; absolute
+  std::filesystem::path worker;        ///< program of the workers if not hedgehop itself; absolute or empty
+  std::filesystem::path junit;         ///< written by the merge step; absolute or empty
+  size_t tasks = 1;                    ///< shards, 1..1000 (Slurm's own limit of an array's index)
+  size_t cores = 1;                    ///< per task, equal to its number of workers
+  double limit_s = 0.0;                ///< of a flight; 0 for no limit
+  bool other_builds = false;           ///< whether results of other builds are reused
+  std::vector<std::string> overrides;  ///< "a.b=value", of every point
+  std::vector<std::string> options;    ///< for every sbatch, such as --partition=night
 };
 
 /// Returns the batch script of the array. It flies a shard and re-queues the task once if flights have no result.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/batch/input_files.h"
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/numbers.h"
@@ -54,7 +55,7 @@ std::vector<std::vector<std::string>> grid(const std::vector<SweepParameter>& pa
 
 }  // namespace
 
-SweepConfig read_sweep(const std::filesystem::path& file) {
+SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   ErrorList faults("sweep");
   const Node root = load_tree(file, faults);
   SweepConfig sweep;
@@ -83,6 +84,12 @@ SweepConfig read_sweep(const std::filesystem::path& file) {
                                                        *sweep.seeds, *sweep.tuned_on));
   }
   faults.throw_if_any();
+  for (const std::string& text : overrides) {
+    if (const std::string key = text.substr(0, text.find('=')); paths.contains(key))
+      throw InputError(fmt::format("--set {}: is a parameter of {}", key, file.string()));
+  }
+  sweep.set = with_module_paths(sweep.set, file.parent_path());
+  sweep.set.insert(sweep.set.end(), overrides.begin(), overrides.end());
   sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
   if (const std::vector<std::string> refused = refused_parameters(sweep); !refused.empty()) throw InputError(refused);
   return sweep;

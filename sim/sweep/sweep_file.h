@@ -128,7 +128,8 @@ void describe(Visitor& v, fields::ConfigOf<SweepConfig> auto& c) {
 
 /// Reads a sweep. Throws InputError with every fault of the file and of its parameters: unknown paths with the nearest
 /// key, wrong types, values out of bounds.
-SweepConfig read_sweep(const std::filesystem::path& file);
+/// @param overrides  "a.b=value", of the scenario at every point, after those of the file.
+SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// Returns the faults of each parameter's extreme or listed values, each tried alone; one line per fault.
 std::vector<std::string> refused_parameters(const SweepConfig& sweep);

@@ -1,5 +1,7 @@
 #include "sim/verdict/assessment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,16 +11,22 @@
 
 #include "dynamics/rigid_body.h"
 #include "sim/fields/quantities.h"
-#include "sim/scenario/reference_path.h"
 #include "sim/verdict/corridor_truth.h"
 #include "sim/verdict/field_metrics.h"
+#include "sim/verdict/flight_cause.h"
 #include "sim/verdict/formula_check.h"
-#include "sim/verdict/path_distance.h"
+#include "sim/verdict/path_check.h"
 
 namespace hedgehop::sim {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// An extreme value of a flight; no time without a trajectory.
+struct Extreme {
+  double value = -kInfinity;
+  std::optional<double> t_s;
+};
 
 /// Inputs of a check.
 struct Evidence {
@@ -27,12 +35,14 @@ struct Evidence {
   const scenes::Scene& scene;
   double rotor_radius_m;
 
-  /// Returns the maximum of a quantity over the control ticks.
+  /// Returns the maximum of a quantity over the control ticks, and its time.
   template <class Quantity>
-  double maximum(Quantity quantity) const {
-    double value = -kInfinity;
-    for (const TrajectoryRow& row : flight.trajectory) value = std::max(value, quantity(row));
-    return value;
+  Extreme maximum(Quantity quantity) const {
+    Extreme extreme;
+    for (const TrajectoryRow& row : flight.trajectory) {
+      if (const double value = quantity(row); value > extreme.value) extreme = {value, row.t_s};
+    }
+    return extreme;
   }
 };
 
@@ -40,24 +50,39 @@ const ClosestApproach& closer(const ClosestApproach& a, const ClosestApproach& b
   return b.distance_m < a.distance_m ? b : a;
 }
 
+std::string name_of(const ClosestApproach& approach) {
+  return approach.what.empty() ? "an obstacle" : approach.what == "ground" ? "the ground" : approach.what;
+}
+
 std::optional<double> moment(const ClosestApproach& approach) {
   return std::isfinite(approach.distance_m) ? std::optional(approach.t_s) : std::nullopt;
+}
+
+/// Returns the closest approach to the goal in words.
+std::string closest_to_goal(const Evidence& e) {
+  const Extreme closest =
+      e.maximum([&](const TrajectoryRow& row) { return -(row.p_WB_true - e.scenario.goal->p_WG()).head<2>().norm(); });
+  if (!closest.t_s) return "";
+  return fmt::format("distance at the end; minimum {:.1f} m at {:.1f} s", -closest.value, *closest.t_s);
 }
 
 CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
   const FlightResult& result = e.flight.result;
   const std::string name{ReachedGoalCheck::kName};
-  if (!e.scenario.goal || !result.goal_distance_m) return {name, false, kNaN, kNaN, "m"};
+  if (!e.scenario.goal || !result.goal_distance_m) return {name, false, kNaN, kNaN, "m", "<=", {}, "there is no goal"};
   const double within_m = check.within_m.value_or(e.scenario.goal->radius_m);
   const double before_s = check.before_s.value_or(e.scenario.duration_s);
   const bool near = *result.goal_distance_m <= within_m;
   if (near && result.outcome != Outcome::reached && !e.flight.trajectory.empty()) {
     const double off_height_m = std::abs((e.flight.trajectory.back().p_WB_true - e.scenario.goal->p_WG()).z());
     const double tolerance_m = e.scenario.goal->height_tolerance_m;
-    if (off_height_m > tolerance_m) return {name, false, off_height_m, tolerance_m, "m"};
+    if (off_height_m > tolerance_m)
+      return {name, false, off_height_m, tolerance_m, "m", "<=", {}, "altitude difference to the goal at the end"};
   }
-  if (near && result.flight_time_s > before_s) return {name, false, result.flight_time_s, before_s, "s"};
-  return {name, near && result.outcome == Outcome::reached, *result.goal_distance_m, within_m, "m"};
+  if (near && result.flight_time_s > before_s)
+    return {name, false, result.flight_time_s, before_s, "s", "<=", {}, "time at the goal"};
+  const bool reached = near && result.outcome == Outcome::reached;
+  return {name, reached, *result.goal_distance_m, within_m, "m", "<=", {}, reached ? "" : closest_to_goal(e)};
 }
 
 CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {
@@ -84,12 +109,14 @@ CheckResult evaluate(const MinClearanceCheck& check, const Evidence& e) {
           check.at_least_m,
           "m",
           ">=",
-          moment(nearest)};
+          moment(nearest),
+          nearest.distance_m >= check.at_least_m ? "" : "to " + name_of(nearest)};
 }
 
 CheckResult evaluate(const AltitudeBandCheck& check, const Evidence& e) {
-  const double highest_m = e.maximum([](const TrajectoryRow& row) { return -row.p_WB_true.z(); });
-  const double lowest_m = -e.maximum([](const TrajectoryRow& row) { return row.p_WB_true.z(); });
+  const Extreme highest = e.maximum([](const TrajectoryRow& row) { return -row.p_WB_true.z(); });
+  const Extreme lowest = e.maximum([](const TrajectoryRow& row) { return row.p_WB_true.z(); });
+  const double highest_m = highest.value, lowest_m = -lowest.value;
   // Reports the side with the smaller margin.
   const bool low_side = lowest_m - check.min_m < check.max_m - highest_m;
   return {std::string{AltitudeBandCheck::kName},
@@ -97,27 +124,39 @@ CheckResult evaluate(const AltitudeBandCheck& check, const Evidence& e) {
           low_side ? lowest_m : highest_m,
           low_side ? check.min_m : check.max_m,
           "m",
-          low_side ? ">=" : "<="};
+          low_side ? ">=" : "<=",
+          low_side ? lowest.t_s : highest.t_s};
 }
 
 CheckResult evaluate(const InsideBoxCheck& check, const Evidence& e) {
-  const double outside_m = e.maximum([&check](const TrajectoryRow& row) {
+  const Extreme outside = e.maximum([&check](const TrajectoryRow& row) {
     return std::max({check.north_min_m - row.p_WB_true.x(), row.p_WB_true.x() - check.north_max_m,
                      check.east_min_m - row.p_WB_true.y(), row.p_WB_true.y() - check.east_max_m});
   });
-  return {std::string{InsideBoxCheck::kName}, outside_m <= 0.0, outside_m, 0.0, "m"};
+  return {std::string{InsideBoxCheck::kName}, outside.value <= 0.0, outside.value, 0.0, "m", "<=", outside.t_s};
 }
 
 CheckResult evaluate(const MaxSpeedCheck& check, const Evidence& e) {
-  const double fastest_mps = e.maximum([](const TrajectoryRow& row) { return row.v_WB_W_true.norm(); });
-  return {std::string{MaxSpeedCheck::kName}, fastest_mps <= check.at_most_mps, fastest_mps, check.at_most_mps, "m/s"};
+  const Extreme fastest = e.maximum([](const TrajectoryRow& row) { return row.v_WB_W_true.norm(); });
+  return {std::string{MaxSpeedCheck::kName},
+          fastest.value <= check.at_most_mps,
+          fastest.value,
+          check.at_most_mps,
+          "m/s",
+          "<=",
+          fastest.t_s};
 }
 
 CheckResult evaluate(const MaxTiltCheck& check, const Evidence& e) {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-  const double tilt_rad = e.maximum([](const TrajectoryRow& row) { return dynamics::tilt_rad(row.rpy_true); });
-  return {std::string{MaxTiltCheck::kName}, tilt_rad <= check.at_most_rad, tilt_rad * kDegPerRad,
-          check.at_most_rad * kDegPerRad, "deg"};
+  const Extreme tilt = e.maximum([](const TrajectoryRow& row) { return dynamics::tilt_rad(row.rpy_true); });
+  return {std::string{MaxTiltCheck::kName},
+          tilt.value <= check.at_most_rad,
+          tilt.value * kDegPerRad,
+          check.at_most_rad * kDegPerRad,
+          "deg",
+          "<=",
+          tilt.t_s};
 }
 
 CheckResult evaluate(const MetricCheck& check, const Evidence& e) {
@@ -143,32 +182,7 @@ CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
   return {std::string{FloorVisitedCheck::kName}, share >= check.at_least, share, check.at_least, "", ">="};
 }
 
-CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
-  using Measure = PathToleranceCheck::Measure;
-  const ReferencePath reference = read_reference_path(check.reference);
-  std::vector<TimedPoint> flown;
-  for (const TrajectoryRow& row : e.flight.trajectory) flown.push_back({row.t_s, row.p_WB_true});
-  const std::string name{PathToleranceCheck::kName};
-  if (flown.empty()) return {name, false, kNaN, check.at_most_m, "m"};
-  double value_m = kNaN;
-  if (check.measure == Measure::band) {
-    // A flight may reach its goal early. If it ends elsewhere, the rest of the path is missing.
-    constexpr double kRoundedS = 1e-3;  // rounding of the reference's times
-    const double early_s = reference.points.back().t_s - flown.back().t_s;
-    if (early_s > kRoundedS && e.flight.result.outcome != Outcome::reached) {
-      return {name, false, flown.back().t_s, reference.points.back().t_s, "s", ">="};
-    }
-    value_m = max_deviation_m(flown, reference.points);
-  } else {
-    const std::vector<TimedPoint> coarse = thinned(flown, reference.step_s);
-    value_m = check.measure == Measure::frechet ? discrete_frechet_m(coarse, reference.points)
-                                                : mean_warped_distance_m(coarse, reference.points);
-    // The mean alone would not show that the end of the path is missing.
-    const double ends_apart_m = (flown.back().p_WB - reference.points.back().p_WB).norm();
-    if (ends_apart_m > check.at_most_m) value_m = std::max(value_m, ends_apart_m);
-  }
-  return {name, value_m <= check.at_most_m, value_m, check.at_most_m, "m"};
-}
+CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) { return evaluate_path(check, e.flight); }
 
 CheckResult evaluate(const FormulaCheck& check, const Evidence& e) {
   return evaluate_formula(check, e.scenario, e.flight);
@@ -250,6 +264,7 @@ void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vec
   }
   for (const MetricValue& metric : corridor_metrics(scenario, flight)) flight.result.metrics.push_back(metric);
   flight.result.checks = evaluate_checks(scenario, flight, scene, rotor_radius_m(hull));
+  explain(scenario, flight);
 }
 
 }  // namespace hedgehop::sim

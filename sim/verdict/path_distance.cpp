@@ -7,14 +7,6 @@
 namespace hedgehop::sim {
 namespace {
 
-Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s) {
-  const auto after = std::ranges::upper_bound(path, t_s, {}, &TimedPoint::t_s);
-  if (after == path.begin()) return path.front().p_WB;
-  if (after == path.end()) return path.back().p_WB;
-  const TimedPoint &p = *(after - 1), &q = *after;
-  return p.p_WB + (t_s - p.t_s) / (q.t_s - p.t_s) * (q.p_WB - p.p_WB);
-}
-
 /// Fills the table of pairs row by row and returns its last cell. @param cell  function of the costs of (i-1, j-1),
 /// (i-1, j), (i, j-1) and the pair's distance. Cells outside the table are +inf; the one before the first pair is 0.
 template <class CellOf>
@@ -32,6 +24,21 @@ double last_cell(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>
 }
 
 }  // namespace
+
+Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s) {
+  const auto after = std::ranges::upper_bound(path, t_s, {}, &TimedPoint::t_s);
+  if (after == path.begin()) return path.front().p_WB;
+  if (after == path.end()) return path.back().p_WB;
+  const TimedPoint &p = *(after - 1), &q = *after;
+  return p.p_WB + (t_s - p.t_s) / (q.t_s - p.t_s) * (q.p_WB - p.p_WB);
+}
+
+const TimedPoint* first_beyond(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference,
+                               double limit_m) {
+  const auto found = std::ranges::find_if(
+      flown, [&](const TimedPoint& p) { return (p.p_WB - position_at(reference, p.t_s)).norm() > limit_m; });
+  return found == flown.end() ? nullptr : &*found;
+}
 
 double max_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference) {
   double maximum_m = 0.0;

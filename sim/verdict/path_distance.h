@@ -11,6 +11,14 @@ namespace hedgehop::sim {
 /// before the first and after the last point, these points are used.
 double max_deviation_m(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference);
 
+/// Returns the position at a time, linear between points; the first or last point outside of the path's times.
+Eigen::Vector3d position_at(const std::vector<TimedPoint>& path, double t_s);
+
+/// Returns the first point of `flown` that is farther than a limit from the reference at the same time; null without
+/// such a point.
+const TimedPoint* first_beyond(const std::vector<TimedPoint>& flown, const std::vector<TimedPoint>& reference,
+                               double limit_m);
+
 /// Returns the discrete Fréchet distance, m; times are not used.
 /// Source: [EiterMannila1994] table 1.
 double discrete_frechet_m(const std::vector<TimedPoint>& a, const std::vector<TimedPoint>& b);

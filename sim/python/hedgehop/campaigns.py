@@ -72,7 +72,7 @@ def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False, progress
     files   a file or a list of files.
     seeds   such as "1:10" or [1, 2, 3].
     set     values by key path.
-    jobs    number of parallel flights; default: the number of cores.
+    jobs    number of parallel flights; default: the cores that this process may use.
     resume  whether to reuse results in `out` of the same scenario and build.
     progress  whether to show on standard error how many flights have ended, and the remaining time.
     """

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <random>
 #include <set>
 
@@ -15,45 +16,54 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = nlohmann::ordered_json;
 
-FlightRecord made_up_film(bool collided, double figure) {
+enum class Kind { collision, failure, near_miss };
+
+FlightRecord made_up_film(Kind kind, double figure) {
   FlightRecord record{.status = FlightRecord::Status::flown};
   FlightResult& result = record.result.emplace().flight;
-  result.outcome = collided ? Outcome::collided : Outcome::reached;
+  result.outcome = kind == Kind::collision ? Outcome::collided
+                   : kind == Kind::failure ? Outcome::timeout
+                                           : Outcome::reached;
+  result.checks = {{.name = "no_collision", .passed = kind == Kind::near_miss, .unit = "m"}};
   result.flight_time_s = result.closest_obstacle.distance_m = figure;
   return record;
 }
 
-/// No omitted flight of a kind is worse. As many flights as possible are selected, half of each kind.
-TEST(WorstFlights, AreNotBetterThanOmittedFlights) {
+/// No omitted flight of a kind is worse. Failed flights come first, half of them collisions if there are enough.
+TEST(WorstFlights, AreFailedFlightsFirstAndNotBetterThanOmittedFlights) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<FlightRecord> records;
+    std::vector<Kind> kinds;
     const auto flights = random() % 12;
     for (uint64_t i = 0; i < flights; ++i) {
-      records.push_back(made_up_film(random() % 2 == 0, static_cast<double>(random() % 1000)));
+      kinds.push_back(static_cast<Kind>(random() % 3));
+      records.push_back(made_up_film(kinds.back(), static_cast<double>(random() % 1000)));
       if (random() % 5 == 0) records.back().status = FlightRecord::Status::failed;
     }
     const size_t count = random() % 8;
     const std::vector<size_t> rows = worst_flights(records, count);
     const std::set<size_t> chosen(rows.begin(), rows.end());
-    size_t eligible[2] = {0, 0}, taken[2] = {0, 0};
+    std::array<size_t, 3> eligible{}, taken{};
     for (size_t i = 0; i < records.size(); ++i) {
       if (records[i].status != FlightRecord::Status::flown) {
         EXPECT_FALSE(chosen.contains(i));
         continue;
       }
-      const bool collided = records[i].result->flight.outcome == Outcome::collided;
-      ++eligible[collided];
-      taken[collided] += chosen.contains(i);
+      const auto kind = static_cast<size_t>(kinds[i]);
+      ++eligible[kind];
+      taken[kind] += chosen.contains(i);
       for (size_t other = 0; other < records.size(); ++other) {
-        if (chosen.contains(i) || !chosen.contains(other)) continue;
-        if (records[other].result->flight.outcome != records[i].result->flight.outcome) continue;
+        if (chosen.contains(i) || !chosen.contains(other) || kinds[other] != kinds[i]) continue;
         EXPECT_LE(records[other].result->flight.flight_time_s, records[i].result->flight.flight_time_s);
       }
     }
-    EXPECT_EQ(chosen.size(), std::min(count, eligible[0] + eligible[1]));
-    EXPECT_GE(taken[1], std::min(eligible[1], (count + 1) / 2));
-    EXPECT_GE(taken[0], std::min(eligible[0], count / 2));
+    const size_t failed = eligible[0] + eligible[1];
+    EXPECT_EQ(taken[0] + taken[1], std::min(count, failed));
+    EXPECT_EQ(chosen.size(), std::min(count, failed + eligible[2]));
+    EXPECT_GE(taken[0], std::min(eligible[0], (count + 1) / 2));
+    EXPECT_GE(taken[1], std::min(eligible[1], count / 2));
+    for (size_t i = 1; i < rows.size(); ++i) EXPECT_LE(kinds[rows[i - 1]], kinds[rows[i]]);
   }
 }
 
@@ -86,6 +96,15 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   EXPECT_EQ(page.value.at("height"), 240 * 3 / 4 + 16);  // 64 x 48 px, and a line below
   EXPECT_THAT(page.value.at("why").get<std::string>(), HasSubstr("collided (hit north wall"));
   EXPECT_EQ(page.value.at("boards"), 0);
+}
+
+TEST(FilmStrip, ShowsTheEndOfATimeout) {
+  const CampaignFolder folder;
+  folder.write("timeout.yaml", folder.read("tiny.yaml") + "  - {check: reached_goal}\n");
+  folder.hedgehop("batch timeout.yaml --out out --set duration=0.5");
+  const CommandEnd end = folder.hedgehop("report out --film-strips 1");
+  EXPECT_EQ(end.err, "1/1: re-simulating tiny_duration=0.5/seed1 for its film strip\n");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/tiny_duration=0.5/seed1/strip.jpg"));
 }
 
 TEST(FilmStrip, IsNotWrittenIfTheFlightDiffersFromTheTable) {

@@ -3,9 +3,11 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/config/whole_file.h"
 #include "sim/pages/report.h"
 #include "sim/record/result_files.h"
 #include "sim/record/table.h"
+#include "sim/scenario/reference_path.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/pages/browser.h"
 #include "tests/sim/record/fake_flight.h"
@@ -112,6 +114,64 @@ TEST(ReportInBrowser, StartsWithASummaryOfACollisionAndReplacesConstantPlotsByTe
   EXPECT_EQ(page.value[3], 0);
 }
 
+TEST(ReportInBrowser, StartsWithTheCauseOfATimeoutAndABarOfItsStatuses) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  for (size_t i = 0; i < flight.decisions.size(); ++i) {
+    flight.decisions[i].status = 2 * i < flight.decisions.size() ? "go" : "look";
+  }
+  flight.result.outcome = Outcome::timeout;
+  flight.result.goal_distance_m = 30.0;
+  flight.result.cause = "in its last 5 s the module reported `look` and commanded 0 m/s";
+  flight.result.goal_missed_unchecked = true;
+  write_result_files(run.path(), {.scenario = "timeout", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const spans = [...document.querySelectorAll('#story .ribbon-bar i')].map((e) => e.title.split(':')[0]);
+    return [document.querySelector('#story li').textContent, document.getElementById('story').textContent.includes('{check: reached_goal}'),
+            spans.filter(Boolean), document.querySelector('#story .ribbon p').textContent];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "In its last 5 s the module reported `look` and commanded 0 m/s.");
+  EXPECT_EQ(page.value[1], true);
+  EXPECT_THAT(page.value[2], ElementsAre("go", "look"));
+  EXPECT_EQ(page.value[3], "go look ");
+}
+
+TEST(ReportInBrowser, StartsWithTheFailedCheckOfAFlightToItsGoal) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.outcome = Outcome::reached;
+  flight.result.checks = {{"min_clearance", false, 0.6, 1.0, "m", ">=", 6.4, "to tree 8"}};
+  flight.result.cause = "min_clearance 0.6 m at 6.40 s, must be >= 1 m: to tree 8";
+  write_result_files(run.path(), {.scenario = "close", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    return [document.querySelector('#story li').textContent, document.querySelector('#checks').textContent.includes('to tree 8')];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "min_clearance 0.6 m at 6.40 s, must be >= 1 m: to tree 8.");
+  EXPECT_EQ(page.value[1], true);
+}
+
+TEST(ReportInBrowser, ShowsTheReferenceOfAPathCheckOnThePlan) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  ReferencePath reference{.points = {{0.0, {0.0, 0.0, -10.0}}, {10.0, {50.0, 20.0, -10.0}}}};
+  write_file_whole(run.path() / "path.csv", reference_text(reference));
+  const auto has_reference = [&](const std::string& checks) {
+    const std::vector<std::string> overrides = {checks};
+    const std::string yaml =
+        to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml", overrides));
+    write_result_files(run.path(), {.scenario = "path", .scenario_yaml = yaml}, fake_flight(10.0, 1));
+    write_report(run.path(), read_run(run.path()));
+    return visit(run.path() / "report.html", "return document.querySelector('#plan canvas').toDataURL();").value;
+  };
+  const std::string check =
+      "checks=[{check: path_tolerance, at_most: 1, reference: " + (run.path() / "path.csv").string() + "}]";
+  EXPECT_NE(has_reference(check), has_reference("checks=[]"));
+}
+
 TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
@@ -133,7 +193,7 @@ TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
   EXPECT_GE(page.value.at(2).get<int>(), 2);
 }
 
-TEST(ReportInBrowser, HasNoMapWithoutAMapAndNoSummaryWithoutACollision) {
+TEST(ReportInBrowser, HasNoMapWithoutAMapAndNoSummaryOfASuccess) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
   write_report(run.path(), read_run(run.path()));

@@ -11,6 +11,7 @@ class AgainstView {
     }
     Object.assign(this, {table, on, before: against.flights});
     host.append(make('h2', '', `Compared with ${against.name}`));
+    for (const line of against.mixture.split('\n').filter(Boolean)) host.append(make('p', 'bad-text', line));
     const both = [...this.before.keys()].filter((row) => this.before[row]);
     this.changed = both.filter((row) => this.before[row].outcome !== outcomeOf(table, row)
       || this.before[row].passed !== (table.value('passed', row) === 1));

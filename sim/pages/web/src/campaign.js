@@ -39,7 +39,7 @@ function fillHead(host, data, table) {
     badge.append(make('span', 'mark', {good: '✓', bad: '✕'}[look] ?? '–'));
     badge.appendChild(make('div')).append(make('strong', '', words), make('span', '', more));
   }
-  if (data.builds.length > 1) host.append(make('p', 'bad-text', `Flights of ${data.builds.length} builds: ${data.builds.join(', ')}`));
+  for (const line of data.mixture.split('\n').filter(Boolean)) host.append(make('p', 'bad-text', line));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
   host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));

@@ -25,8 +25,10 @@ class PlanView {
     this.colorings = pathColorings(this.path);
     this.coloring = this.colorings[0];
     this.row = null;
-    this.map = new MapView(host, data.plan, {n: this.path.n, e: this.path.e}, {
-      draw: (c) => { this.drawPath(c); this.drawMarks(c); },
+    this.references = data.references ?? [];
+    const all = (axis) => this.path[axis].concat(...this.references.map((reference) => reference[axis]));
+    this.map = new MapView(host, data.plan, {n: all('n'), e: all('e')}, {
+      draw: (c) => { this.drawReferences(c); this.drawPath(c); this.drawMarks(c); },
       key: (key) => this.drawKey(key),
       hover: (x, y) => this.hover(x, y),
       leave: () => this.on.hover(null),
@@ -35,6 +37,21 @@ class PlanView {
     this.draw();
   }
   draw() { this.map.draw(); }
+
+  /** Draws the reference trajectories of the checks, dashed. */
+  drawReferences(c) {
+    c.save();
+    c.strokeStyle = themeColor('ink');
+    c.lineWidth = 1.5;
+    c.setLineDash([6, 5]);
+    for (const {n, e} of this.references) {
+      c.beginPath();
+      n.forEach((north, i) => c.lineTo(this.map.x(e[i]), this.map.y(north)));
+      c.stroke();
+      this.map.label(c, 'reference', this.map.x(e.at(-1)), this.map.y(n.at(-1)) - 13, themeColor('ink'));
+    }
+    c.restore();
+  }
 
   drawPath(c) {
     const {path, coloring, map} = this;

@@ -70,11 +70,14 @@ function fillChecks(host, checks) {
   host.classList.add('scroll');
   const table = host.appendChild(make('table'));
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
-  for (const {name, passed, value, limit, unit, must, t_s} of checks) {
+  for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
     const measure = (v) => v === null ? '–' : short(v) + (unit ? ' ' + unit : '');
     addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${t_s.toFixed(2)} s`, 'number']]);
+    if (passed || !cause) continue;
+    addRow(table, [['', ''], [cause, 'soft']]);
+    table.lastChild.lastChild.colSpan = 4;
   }
 }
 

@@ -1,5 +1,5 @@
 'use strict';
-// Summary of a collision or fault, at the top of the report.
+// Summary of a flight that is not a success, at the top of the report.
 
 const BEFORE_S = 2;
 
@@ -34,9 +34,14 @@ function storyLines({result, path}) {
   const lines = [];
   if (result.outcome === 'collided') {
     lines.push(`Hit ${result.closest_obstacle?.what || 'an obstacle'} at ${fixed(t_s, 1)} s, flying ${fixed(path.speed[end], 1)} m/s at ${fixed(path.altitude[end], 1)} m altitude.`);
-  } else {
+  } else if (result.outcome === 'fault') {
     lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${result.cause}`);
+  } else {
+    const cause = result.cause || 'ended before its goal or failed a check';  // results of earlier versions name no cause
+    const sentence = result.outcome === 'timeout' ? cause[0].toUpperCase() + cause.slice(1) : cause;
+    lines.push(sentence + '.');
   }
+  if (result.goal_missed_unchecked) lines.push('No check requires the goal; to require it, add {check: reached_goal} to the checks.');
   const status = path.statuses[path.status[end]];
   if (status) {
     const since_s = path.t[heldSince(path.status)];
@@ -50,22 +55,56 @@ function storyLines({result, path}) {
   return lines;
 }
 
-/** Fills the section. Removes it unless the flight collided or had a fault. */
+/** Returns the instant to show: the time of the first failed check of a flight to its goal, else the end. */
+function tellingTime({outcome, checks, flight_time_s}) {
+  if (outcome !== 'reached') return flight_time_s;
+  return checks.find((check) => !check.passed)?.t_s ?? flight_time_s;
+}
+
+/** Returns a bar of the module's statuses over the flight, with their names. */
+function statusRibbon({t, status, statuses}, t_s) {
+  const ribbon = make('div', 'ribbon');
+  const bar = ribbon.appendChild(make('div', 'ribbon-bar'));
+  const end_s = t.at(-1) || 1;
+  for (let from = 0; from < t.length;) {
+    let to = from;
+    while (to < t.length && status[to] === status[from]) ++to;
+    const until_s = to < t.length ? t[to] : end_s, name = statuses[status[from]] ?? '';
+    const span = bar.appendChild(make('i', ''));
+    span.style.flexGrow = Math.max(0, until_s - t[from]);
+    span.style.background = status[from] < 0 ? 'transparent' : themeColor(`c${status[from] % 6}`);
+    span.title = `${name}: ${fixed(t[from], 1)} s to ${fixed(until_s, 1)} s`;
+    from = to;
+  }
+  bar.appendChild(make('b')).style.left = `${100 * t_s / end_s}%`;
+  const key = ribbon.appendChild(make('p', 'soft'));
+  statuses.forEach((name, i) => {
+    key.appendChild(make('i', 'swatch')).style.background = themeColor(`c${i % 6}`);
+    key.append(`${name || 'no status'} `);
+  });
+  return ribbon;
+}
+
+/** Fills the section. Removes it if the flight is a success. */
 function fillStory(host, data, film) {
   const {result, path, has_replay} = data;
-  if (!['collided', 'fault'].includes(result.outcome) || !path.t.length) {
+  const missed = result.outcome === 'timeout' && result.goal_distance_m !== null;
+  const failed = missed || ['collided', 'fault'].includes(result.outcome) || result.checks.some((check) => !check.passed);
+  if (!failed || !path.t.length) {
     host.remove();
     return;
   }
-  const t_s = result.flight_time_s;
-  if (film) host.append(filmStill(film, t_s, `camera images at ${fixed(t_s, 1)} s`));
+  const t_s = tellingTime(result);
+  const left = host.appendChild(make('div'));
+  if (film) left.append(filmStill(film, t_s, `camera images at ${fixed(t_s, 1)} s`));
+  if (path.statuses.length) left.append(statusRibbon(path, t_s));
   const text = host.appendChild(make('div', 'story-text'));
   text.append(make('h2', '', 'Summary'));
   const list = text.appendChild(make('ul'));
   for (const line of storyLines(data)) list.append(make('li', '', line));
   const actions = text.appendChild(make('p', 'actions'));
   if (film) {
-    const play = actions.appendChild(make('button', '', `Play the last ${BEFORE_S} s of the film`));
+    const play = actions.appendChild(make('button', '', `Play the film from ${BEFORE_S} s before`));
     play.type = 'button';
     play.addEventListener('click', () => {
       film.currentTime = Math.max(0, t_s - BEFORE_S);

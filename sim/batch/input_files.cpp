@@ -1,0 +1,156 @@
+#include "sim/batch/input_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "sim/config/config_tree.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_yaml(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".yaml" || ending == ".yml";
+}
+
+bool is_hidden(const fs::path& file) { return file.filename().string().starts_with('.'); }
+
+/// Whether a flight has written this scenario.
+bool is_result(const fs::path& file) {
+  std::error_code error;
+  return file.filename() == "scenario.yaml" && fs::exists(file.parent_path() / "result.json", error);
+}
+
+size_t count_yaml(const fs::path& folder) {
+  std::error_code error;
+  size_t count = 0;
+  for (fs::recursive_directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
+    if (is_hidden(entry->path())) {
+      entry.disable_recursion_pending();
+    } else if (!entry->is_directory(error) && is_yaml(entry->path()) && !is_result(entry->path())) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+void add_files(const fs::path& folder, bool recursive, FolderFiles& files) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& path = entry.path();
+    if (is_hidden(path)) continue;
+    if (entry.is_directory(error)) {
+      if (recursive) {
+        add_files(path, true, files);
+      } else if (const size_t count = count_yaml(path); count > 0) {
+        files.not_descended.emplace_back(path, count);
+      }
+    } else if (!is_yaml(path)) {
+      files.others.push_back(path);
+    } else if (is_result(path)) {
+      ++files.results;
+    } else {
+      files.yaml.push_back(path);
+    }
+  }
+}
+
+constexpr std::string_view kModulePaths[] = {kPluginKey, kPythonKey};
+
+/// Returns the value as YAML that every reader takes as this text.
+std::string quoted_text(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string from_folder(const std::string& path, const fs::path& folder) {
+  return quoted_text((folder / path).lexically_normal().string());
+}
+
+/// Returns the number of bytes of a scalar as written at the start of a text. @param node  the scalar.
+size_t written_length(const std::string& text, const Node& node) {
+  if (!node.quoted) return node.text.size();
+  const size_t end = text.find(text[0], 1);
+  return end == std::string::npos ? text.size() : end + 1;
+}
+
+/// Replaces the path of a map such as {plugin: lib.so, module: mine}.
+std::string with_module_path(const std::string& value, const fs::path& folder) {
+  ErrorList errors("value");
+  const Node root = parse_yaml(value, "value", errors);
+  if (!errors.empty() || root.kind != Node::Kind::map) return value;
+  for (const std::string_view key : kModulePaths) {
+    const Node* const path = root.find(key);
+    if (!path || path->kind != Node::Kind::scalar || path->text.empty() || path->position.line != 1) continue;
+    const auto begin = static_cast<size_t>(path->position.column - 1);
+    if (begin >= value.size()) continue;
+    const size_t length = written_length(value.substr(begin), *path);
+    return value.substr(0, begin) + from_folder(path->text, folder) + value.substr(begin + length);
+  }
+  return value;
+}
+
+}  // namespace
+
+FolderFiles files_of(const fs::path& folder, bool recursive) {
+  FolderFiles files{.folder = folder, .yaml = {}, .others = {}, .not_descended = {}};
+  add_files(folder, recursive, files);
+  std::ranges::sort(files.yaml);
+  std::ranges::sort(files.others);
+  std::ranges::sort(files.not_descended);
+  return files;
+}
+
+std::string left_out_words(const FolderFiles& files, const std::set<fs::path>& used) {
+  constexpr size_t kMaxNames = 8;
+  std::vector<std::string> names;
+  size_t unnamed = 0;
+  for (const fs::path& file : files.others) {
+    std::error_code error;
+    if (used.contains(fs::weakly_canonical(file, error))) continue;
+    if (names.size() < kMaxNames) {
+      names.push_back(file.lexically_relative(files.folder).string());
+    } else {
+      ++unnamed;
+    }
+  }
+  std::vector<std::string> words;
+  if (!names.empty()) {
+    words.push_back(fmt::format("{}{} (not .yaml or .yml)", fmt::join(names, ", "),
+                                unnamed > 0 ? fmt::format(" and {} more files", unnamed) : ""));
+  }
+  for (const auto& [folder, count] : files.not_descended) {
+    words.push_back(fmt::format("{}/ ({} YAML file{}; use --recursive)",
+                                folder.lexically_relative(files.folder).string(), count, count == 1 ? "" : "s"));
+  }
+  if (files.results > 0) words.push_back(fmt::format("{} scenarios that flights wrote as results", files.results));
+  return words.empty() ? "" : fmt::format("{}: left out: {}", files.folder.string(), fmt::join(words, "; "));
+}
+
+std::vector<std::string> with_module_paths(std::vector<std::string> overrides, const fs::path& folder) {
+  for (std::string& text : overrides) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+    const auto ends_with_key = [&](std::string_view key) { return path.ends_with("avoidance." + std::string(key)); };
+    if (path == "avoidance" || path == "takeover.avoidance") {
+      text = path + "=" + with_module_path(value, folder);
+    } else if (std::ranges::any_of(kModulePaths, ends_with_key)) {
+      ErrorList errors("value");
+      const Node node = parse_yaml(value, "value", errors);
+      if (errors.empty() && node.kind == Node::Kind::scalar) text = path + "=" + from_folder(node.text, folder);
+    }
+  }
+  return overrides;
+}
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hedgehop::sim {
+
+/// The YAML files of a folder, and the files that are left out.
+struct FolderFiles {
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> yaml;                              ///< *.yaml and *.yml, sorted
+  std::vector<std::filesystem::path> others;                            ///< files of other kinds, sorted
+  std::vector<std::pair<std::filesystem::path, size_t>> not_descended;  ///< subfolders with their number of YAML files
+  size_t results = 0;                                                   ///< scenarios that earlier flights wrote
+};
+
+/// Returns the files of a folder. Hidden files and folders do not count. @param recursive  whether subfolders are read.
+FolderFiles files_of(const std::filesystem::path& folder, bool recursive);
+
+/// Returns one line that names the files that are left out, or "". @param used  files that scenarios use, canonical;
+/// they are not left out.
+std::string left_out_words(const FolderFiles& files, const std::set<std::filesystem::path>& used);
+
+/// Returns overrides in which the paths of a module (`avoidance={plugin: ...}`, `avoidance.python=...`) are relative to
+/// the working folder instead of a file's folder, so that they have the same meaning after --set.
+std::vector<std::string> with_module_paths(std::vector<std::string> overrides, const std::filesystem::path& folder);
+
+}  // namespace hedgehop::sim

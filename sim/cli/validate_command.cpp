@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "sim/batch/campaign_file.h"
+#include "sim/batch/input_files.h"
+#include "sim/batch/junit.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/exit_status.h"
+#include "sim/cli/fly_batch.h"
+#include "sim/config/include.h"
+#include "sim/simulation/simulation.h"
+#include "sim/sweep/sweep_file.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+/// The valid content of a file, in words, and the files that it reads.
+struct ValidFile {
+  std::string words;
+  std::set<std::filesystem::path> used;
+};
+
+bool is_sweep(const std::filesystem::path& file) {
+  ErrorList errors("file");
+  const Node root = load_tree(file, errors);
+  return root.find("parameters") && root.find("scenario");
+}
+
+/// Places the vehicle of a flight: some errors show only in the assembled parts.
+void assemble(const Order& order) {
+  try {
+    Simulation(load_flight(order.scenario, order.overrides, order.seed));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: {}", order.scenario.string(), error.what()));
+  }
+}
+
+/// Returns the content of a scenario or a campaign. Throws InputError with every error.
+ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const BatchOrders batch = read_batch({file}, {}, overrides);
+  if (!batch.faults.empty()) throw InputError(batch.faults);
+  ValidFile valid;
+  std::map<std::string, size_t> groups;
+  for (const Order& order : batch.orders) {
+    if (++groups[order.group] > 1) continue;
+    assemble(order);
+    for (const auto& [input, hash] : order.inputs) {
+      std::error_code error;
+      valid.used.insert(std::filesystem::weakly_canonical(order.scenario.parent_path() / input, error));
+    }
+  }
+  valid.words = batch.orders.size() == 1
+                    ? fmt::format("scenario {}", batch.orders.front().group)
+                    : fmt::format("{} flights of {} scenarios", batch.orders.size(), groups.size());
+  return valid;
+}
+
+ValidFile read_valid(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  if (!is_sweep(file)) return read_flights_of(file, overrides);
+  const SweepConfig sweep = read_sweep(file, overrides);
+  return {fmt::format("sweep of {} parameters of {}", sweep.parameters.size(), sweep.scenario), {}};
+}
+
+/// Checks files one after the other.
+class Validator {
+ public:
+  explicit Validator(const ValidateOptions& options) : options_(options) {}
+
+  void check_input(const std::filesystem::path& input) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(input, error)) {
+      check(input);
+      return;
+    }
+    const FolderFiles files = files_of(input, options_.recursive);
+    if (files.yaml.empty()) refuse({fmt::format("{}: no *.yaml or *.yml in this folder", input.string())});
+    for (const std::filesystem::path& file : files.yaml) check(file);
+    if (const std::string words = left_out_words(files, used_); !words.empty()) notice(words + "\n");
+  }
+
+  int conclude() const {
+    fmt::print("{} files: {} valid, {} invalid\n", valid_ + invalid_, valid_, invalid_);
+    if (!options_.junit.empty()) write_junit(options_.junit, junit_of_bad_input(faults_, junit_origin()));
+    return invalid_ == 0 ? 0 : kBadInput;
+  }
+
+ private:
+  void check(const std::filesystem::path& file) {
+    try {
+      const ValidFile found = read_valid(file, options_.overrides);
+      used_.insert(found.used.begin(), found.used.end());
+      fmt::print("valid    {}: {}\n", file.string(), found.words);
+      ++valid_;
+    } catch (const InputError& error) {
+      fmt::print("invalid  {}\n", file.string());
+      refuse(error.errors());
+    }
+  }
+
+  void refuse(const std::vector<std::string>& faults) {
+    ++invalid_;
+    for (const std::string& fault : faults) notice(fault + "\n");
+    faults_.insert(faults_.end(), faults.begin(), faults.end());
+  }
+
+  const ValidateOptions& options_;
+  size_t valid_ = 0, invalid_ = 0;
+  std::vector<std::string> faults_;
+  std::set<std::filesystem::path> used_;
+};
+
+}  // namespace
+
+int validate(const ValidateOptions& options) {
+  if (!options.junit.empty()) require_writable_file(options.junit);
+  Validator validator(options);
+  for (const std::filesystem::path& input : options.inputs) validator.check_input(input);
+  return validator.conclude();
+}
+
+}  // namespace hedgehop::sim::cli

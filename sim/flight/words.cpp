@@ -1,0 +1,34 @@
+#include "sim/flight/words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <regex>
+
+namespace hedgehop::sim {
+
+std::string figure_words(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return "unknown";
+  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string check_words(const CheckResult& check) {
+  std::string words = figure_words(check.value, check.unit);
+  if (check.t_s) words += fmt::format(" at {:.2f} s", *check.t_s);
+  if (!std::isnan(check.limit))
+    words += fmt::format(", must be {} {}", check.must, figure_words(check.limit, check.unit));
+  if (!check.passed && !check.cause.empty()) words += ": " + check.cause;
+  return words;
+}
+
+std::string library_words(const Libraries& libraries) {
+  const bool both = !libraries.images.empty() && !libraries.functions.empty();
+  return libraries.images + (both ? ", " : "") + libraries.functions;
+}
+
+std::string renderer_words(const Libraries& libraries) {
+  static const std::regex kWidth("(; (AVX-512|AVX2|plain)|, [0-9]+ bits)");
+  return std::regex_replace(libraries.renderer, kWidth, "");
+}
+
+}  // namespace hedgehop::sim

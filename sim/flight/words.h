@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "sim/flight/flight.h"
+
+/// Results of a flight in words, the same in the terminal, JUnit files, tables and pages.
+namespace hedgehop::sim {
+
+/// Returns a number with its unit: "0.62 m", "12"; "unknown" unless it is finite.
+std::string figure_words(double value, const std::string& unit);
+
+/// Returns the value of a check, its time, its limit and, if it failed, its cause:
+/// "0.62 m at 6.40 s, must be >= 1 m: tree 8".
+std::string check_words(const CheckResult& check);
+
+/// Returns the versions of the libraries: "OpenCV 4.6.0, SLEEF 3.5.1".
+std::string library_words(const Libraries& libraries);
+
+/// Returns the renderer without the vector width of the processor, which does not change images.
+std::string renderer_words(const Libraries& libraries);
+
+/// Advice for flights with FlightResult::goal_missed_unchecked.
+inline constexpr const char* kGoalMissedUnchecked =
+    "timed out before the goal, and no check requires the goal; to require it, add {check: reached_goal} to the checks";
+
+}  // namespace hedgehop::sim

@@ -1,0 +1,77 @@
+#include "sim/batch/input_files.h"
+
+#include <gmock/gmock.h>
+
+#include "sim/config/whole_file.h"
+#include "tests/sim/record/temporary_folder.h"
+
+namespace hedgehop::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A folder of three scenarios, of a result, and of files of other kinds.
+class MixedFolder : public TemporaryFolder {
+ public:
+  MixedFolder() {
+    for (const char* file : {"b.yml", "a.yaml", "sub/c.YAML", "sub/deep/d.yaml", "notes.txt", "path.csv",
+                             ".hidden.yaml", "out/scenario.yaml", "out/result.json"}) {
+      std::filesystem::create_directories((path() / file).parent_path());
+      write_file_whole(path() / file, "name: x\n");
+    }
+  }
+  std::vector<std::string> names(const FolderFiles& files) const {
+    std::vector<std::string> names;
+    for (const auto& file : files.yaml) names.push_back(file.lexically_relative(path()).string());
+    return names;
+  }
+};
+
+TEST(FilesOfAFolder, HaveBothEndings) {
+  const MixedFolder folder;
+  EXPECT_THAT(folder.names(files_of(folder.path(), false)), ElementsAre("a.yaml", "b.yml"));
+}
+
+TEST(FilesOfAFolder, IncludeSubfoldersIfRecursiveButNoResults) {
+  const MixedFolder folder;
+  const FolderFiles files = files_of(folder.path(), true);
+  EXPECT_THAT(folder.names(files), ElementsAre("a.yaml", "b.yml", "sub/c.YAML", "sub/deep/d.yaml"));
+  EXPECT_THAT(left_out_words(files, {}), HasSubstr("1 scenarios that flights wrote as results"));
+}
+
+TEST(FilesOfAFolder, AreReportedIfLeftOut) {
+  const MixedFolder folder;
+  const std::string words = left_out_words(files_of(folder.path(), false), {});
+  EXPECT_THAT(words, HasSubstr("left out: notes.txt, path.csv (not .yaml or .yml)"));
+  EXPECT_THAT(words, HasSubstr("sub/ (2 YAML files; use --recursive)"));
+  EXPECT_THAT(words, Not(HasSubstr("hidden")));
+}
+
+TEST(FilesOfAFolder, AreNotLeftOutIfAScenarioUsesThem) {
+  const MixedFolder folder;
+  const auto used = std::filesystem::weakly_canonical(folder.path() / "path.csv");
+  EXPECT_THAT(left_out_words(files_of(folder.path(), false), {used}), Not(HasSubstr("path.csv")));
+}
+
+TEST(ModulePaths, AreRelativeToTheFolderOfTheirFile) {
+  const auto moved = with_module_paths({"avoidance={plugin: lib/mine.so, module: mine}", "avoidance.plugin=mine.so",
+                                        "avoidance={module: mine, plugin: '../a b.so'}", "avoidance.python=mine.py",
+                                        "takeover.avoidance={plugin: /abs/mine.so, module: x}"},
+                                       "campaigns/x");
+  EXPECT_THAT(
+      moved,
+      ElementsAre("avoidance={plugin: campaigns/x/lib/mine.so, module: mine}", "avoidance.plugin=campaigns/x/mine.so",
+                  "avoidance={module: mine, plugin: 'campaigns/a b.so'}", "avoidance.python=campaigns/x/mine.py",
+                  "takeover.avoidance={plugin: /abs/mine.so, module: x}"));
+}
+
+TEST(ModulePaths, OfOtherOverridesStay) {
+  const std::vector<std::string> others = {"avoidance.speed=1", "name=plugin", "vehicle.use=plugin: x.so",
+                                           "avoidance={module: zig_zag}", "broken"};
+  EXPECT_EQ(with_module_paths(others, "folder"), others);
+}
+
+}  // namespace
+}  // namespace hedgehop::sim

@@ -1,0 +1,196 @@
+"""Input folders, options of batch and sweep, and validation, by the program itself.
+
+usage: options_test.py PROGRAM SOURCE
+"""
+
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1:3]
+TINY = f"""use: {SOURCE}/configs/garratt2009_room_0_light.yaml
+name: NAME
+duration: 0.1
+scene: {{texture_size: 64}}
+velocimeter: {{enabled: false}}
+drawing: {{renderer: tiles}}
+rig: {{cameras: [{{role: front, width: 16, height: 16, fov: 90, rate: 25, channel: grey}}]}}
+avoidance: {{module: go_to_goal}}
+goal: {{north: 5, east: 0, altitude: 1, radius: 1}}
+checks: [{{check: no_collision}}]
+"""
+SWEEP = """scenario: scenarios/a.yaml
+seeds: 1:3
+parameters: [{path: avoidance.speed, from: 0.5, to: 2, count: 20}]
+"""
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        for file in ("a.yaml", "b.yml", "sub/c.yaml"):
+            self.write(f"scenarios/{file}", TINY.replace("NAME", pathlib.Path(file).stem))
+        self.write("sweep.yaml", SWEEP)
+
+    def write(self, file, text):
+        path = self.folder / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def hedgehop(self, arguments, status=0, before=()):
+        end = subprocess.run([*before, PROGRAM, *arguments.split()], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(end.returncode, status, end.stdout + end.stderr)
+        return end
+
+    def rows(self, table):
+        with (self.folder / table).open() as file:
+            return list(csv.DictReader(file))
+
+    def flights(self, out="out"):
+        return json.loads((self.folder / out / "batch.json").read_text())["flights"]
+
+
+class Folders(Program):
+    def test_a_folder_has_both_endings_and_reports_the_rest(self):
+        self.write("scenarios/notes.txt", "")
+        end = self.hedgehop("batch scenarios --out out")
+        self.assertEqual([flight["group"] for flight in self.flights()], ["a", "b"])
+        self.assertIn("scenarios: left out: notes.txt (not .yaml or .yml); sub/ (1 YAML file; use --recursive)", end.stderr)
+
+    def test_recursive_flies_subfolders_but_no_results(self):
+        for _ in range(2):
+            end = self.hedgehop("batch scenarios --recursive --out scenarios/out")
+            self.assertEqual([flight["group"] for flight in self.flights("scenarios/out")], ["a", "b", "c"])
+        self.assertIn("3 scenarios that flights wrote as results", end.stderr)
+
+    def test_module_paths_of_a_campaign_are_relative_to_it(self):
+        self.write("deep/campaign.yaml", "tuned_on: none\nflights:\n  - {scenario: ../scenarios/a.yaml, seeds: 1, set: ['avoidance="
+                   "{python: mine.py, class: Mine}']}\n")
+        end = self.hedgehop("batch deep/campaign.yaml --out out", status=2)
+        self.assertIn("deep/mine.py", end.stderr)
+
+
+class Validate(Program):
+    def test_valid_files_exit_with_0_without_a_flight(self):
+        end = self.hedgehop("validate scenarios sweep.yaml --recursive")
+        self.assertIn("4 files: 4 valid, 0 invalid", end.stdout)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_each_error_has_its_place(self):
+        self.write("scenarios/b.yml", TINY + "duratoin: 3\n")
+        self.write("scenarios/inside.yaml", TINY + "start: {altitude: 0.01}\n")
+        end = self.hedgehop("validate scenarios", status=2)
+        self.assertRegex(end.stderr, r"b\.yml:\d+:1: unknown key 'duratoin'")
+        self.assertIn("collides at the start", end.stderr)
+        self.assertIn("3 files: 1 valid, 2 invalid", end.stdout)
+        self.assertIn("sub/ (1 YAML file; use --recursive)", end.stderr)
+
+    def test_a_sweep_is_validated_as_a_sweep(self):
+        self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
+        self.assertIn("avoidance.sped", self.hedgehop("validate sweep.yaml", status=2).stderr)
+
+
+class BatchOptions(Program):
+    def test_renderer_applies_to_every_flight_and_its_re_run(self):
+        self.hedgehop("batch scenarios/a.yaml --renderer osmesa --out out")
+        flight, = self.flights()
+        self.assertNotIn("tiles", flight["result"]["libraries"]["renderer"])
+        self.assertIn("--set drawing.renderer=osmesa", flight["command"])
+
+    def test_no_report_writes_no_page(self):
+        self.hedgehop("batch scenarios/a.yaml --no-report --out out")
+        self.assertFalse((self.folder / "out/report.html").exists())
+
+    def test_keep_rejects_other_artifacts(self):
+        for keep in ("report", "failed=", "failed=video", "all=film"):
+            self.assertIn("failed=report,film,replay,csv", self.hedgehop(f"batch scenarios/a.yaml --keep {keep}", status=2).stderr)
+
+    def test_results_of_two_renderers_are_marked(self):
+        self.write("both.yaml", "tuned_on: none\nflights:\n  - {scenario: scenarios/a.yaml, seeds: 1}\n"
+                   "  - {scenario: scenarios/a.yaml, seeds: 1, set: [drawing.renderer=osmesa]}\n")
+        end = self.hedgehop("batch both.yaml --out out")
+        self.assertIn("Flights with 2 renderers, whose images differ: ", end.stdout)
+        self.assertIn("Flights with 2 renderers", (self.folder / "out/report.html").read_text())
+        rows = self.rows("out/batch.csv")
+        self.assertEqual(rows[0]["renderer"], "Hedgehop; tiles")
+        self.assertNotIn("tiles", rows[1]["renderer"])
+        self.assertRegex(rows[0]["libraries"], "^OpenCV .*, SLEEF ")
+
+    def test_results_of_two_versions_of_a_library_are_marked(self):
+        self.hedgehop("batch scenarios --out out")
+        file = self.folder / "out/a/seed1/result.json"
+        result = json.loads(file.read_text())
+        result["libraries"]["images"] = "OpenCV 4.10.0"
+        file.write_text(json.dumps(result))
+        end = self.hedgehop("batch scenarios --resume --out out")
+        self.assertRegex(end.stdout, r"Flights with 2 versions of libraries: OpenCV 4.10.0, SLEEF [^;]*; OpenCV ")
+
+    def test_flights_at_a_time_default_to_the_affinity(self):
+        self.write("worker.sh", "#!/bin/sh\nmkdir running || touch two\nsleep 0.2\nrmdir running\nexit 3\n").chmod(0o755)
+        first = min(os.sched_getaffinity(0))
+        self.hedgehop(f"batch scenarios --seeds 1:3 --out out --program {self.folder}/worker.sh", status=1,
+                      before=["taskset", "-c", str(first)])
+        self.assertFalse((self.folder / "two").exists(), "two flights ran at a time on one core")
+
+
+class SweepOptions(Program):
+    def test_dry_run_never_flies(self):
+        worker = self.write("worker.sh", "#!/bin/sh\ntouch flown\nexit 3\n")
+        worker.chmod(0o755)
+        end = self.hedgehop(f"sweep sweep.yaml --dry-run --program {worker}")
+        self.assertIn("60 flights of 20 points; 0 have results in out/sweep", end.stdout)
+        self.write("optimize.yaml", SWEEP.replace("count: 20", "") + "design: {type: optimize, minimize: flight_time_s, evaluations: 7}\n")
+        self.assertIn("at most 7 points, 3 flights each", self.hedgehop("sweep optimize.yaml --dry-run").stdout)
+        self.assertFalse((self.folder / "flown").exists())
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_set_applies_to_every_point(self):
+        self.write("sweep.yaml", SWEEP.replace("count: 20", "count: 2").replace("1:3", "1"))
+        self.hedgehop("sweep sweep.yaml --set duration=0.2 --out out")
+        rows = self.rows("out/sweep.csv")
+        self.assertEqual([float(row["flight_time_s"]) for row in rows], [0.2, 0.2])
+        self.assertIn("--set duration=0.2", rows[0]["command"])
+        end = self.hedgehop("sweep sweep.yaml --set avoidance.speed=1", status=2)
+        self.assertIn("--set avoidance.speed: is a parameter of sweep.yaml", end.stderr)
+
+    def test_a_slurm_task_requests_one_core_and_has_all_options(self):
+        slurm = "sweep sweep.yaml --on slurm --dry-run --set duration=0.2 --reuse-other-builds"
+        scripts = self.hedgehop(slurm).stdout
+        self.assertEqual(re.findall(r"--cpus-per-task=(\d+)", scripts), ["1", "1"])
+        self.assertIn(" -j 1", scripts)
+        commands = [line for line in scripts.splitlines() if " sweep " in line]
+        self.assertEqual(len(commands), 3)
+        for command in commands:
+            self.assertIn("--reuse-other-builds --set duration=0.2", command)
+        self.assertIn("--cpus-per-task=3", self.hedgehop(slurm + " -j 3").stdout)
+
+    def test_a_message_of_slurm_is_one_line(self):
+        self.write("bin/sbatch", "#!/bin/sh\necho first >&2\necho second >&2\nexit 1\n").chmod(0o755)
+        end = self.hedgehop("sweep sweep.yaml --on slurm", status=3, before=["env", f"PATH={self.folder}/bin:/usr/bin:/bin"])
+        self.assertRegex(end.stderr, r"first; second\n$")
+
+
+class MissedGoals(Program):
+    def test_a_timeout_that_no_check_reports_is_a_warning(self):
+        end = self.hedgehop("run scenarios/a.yaml --no-video --no-report --out out")
+        self.assertIn("warning: a: timed out before the goal, and no check requires the goal", end.stderr)
+        self.assertRegex(end.stdout, r"cause: in the whole 0.1 s the module reported .*; the flight covered 0.0 of [0-9.]+ m; ")
+        self.assertTrue(json.loads((self.folder / "out/result.json").read_text())["goal_missed_unchecked"])
+        batch = self.hedgehop("batch scenarios --out all")
+        self.assertIn("warning: 2 of 2 flights timed out before the goal, and no check requires the goal", batch.stderr)
+        self.write("scenarios/a.yaml", TINY.replace("no_collision", "reached_goal"))
+        end = self.hedgehop("run scenarios/a.yaml --no-video --no-report --out out", status=1)
+        self.assertNotIn("warning", end.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
