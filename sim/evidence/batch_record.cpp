@@ -52,6 +52,12 @@ Json flight_json(const FlightRecord& record) {
               {"result", record.result ? to_json(record.result->info, record.result->flight) : Json(nullptr)}};
 }
 
+/// Returns a number with two decimals, without the sign of a zero.
+std::string hundredths(double value) {
+  const std::string text = fmt::format("{:.2f}", value);
+  return text == "-0.00" ? "0.00" : text;
+}
+
 std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
   const Interval interval = outcome.success_interval(g.success);
   std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
@@ -59,9 +65,9 @@ std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
     success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
                                     : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
   }
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.0f} |\n", g.group, g.flights,
-                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, g.min_clearance_m,
-                     g.median_clearance_m, g.median_time_s);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", g.group, g.flights, success,
+                     g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, hundredths(g.min_clearance_m),
+                     hundredths(g.median_clearance_m), g.median_time_s);
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ FlightResult distinct_result() {
   FlightResult r;
   r.outcome = Outcome::collided;
   r.cause = "hit tower";
+  r.goal_missed_unchecked = true;
   r.truth_used = {"camera 'front': depth", "sensor 'gps': exact"};
   r.failures = {"2 s to 4 s: gps off"};
   r.flight_time_s = 1.0 / 3.0;
@@ -51,7 +52,7 @@ FlightResult distinct_result() {
   r.physics_ms = {20.1, 21.2};
   r.realtime_factor = 22.3;
   r.wall_s = 23.4;
-  r.checks = {{"no_collision", false, -0.25, 0.0, "m", ">", 4.3},
+  r.checks = {{"no_collision", false, -0.25, 0.0, "m", ">", 4.3, "to the tower"},
               {"reached_goal", true, 24.5, 30.0, "s", "<=", {}},
               {"clearance", true, 25.5, 1.5, "m", ">=", 26.5}};
   r.trajectory_hash = "fedcba9876543210";
@@ -88,6 +89,7 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   const FlightResult& f = read.flight;
   EXPECT_EQ(f.outcome, r.outcome);
   EXPECT_EQ(f.cause, r.cause);
+  EXPECT_EQ(f.goal_missed_unchecked, r.goal_missed_unchecked);
   EXPECT_EQ(f.truth_used, r.truth_used);
   EXPECT_EQ(f.failures, r.failures);
   EXPECT_EQ(f.flight_time_s, r.flight_time_s);
@@ -106,6 +108,7 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   ASSERT_EQ(f.checks.size(), r.checks.size());
   for (size_t i = 0; i < r.checks.size(); ++i) {
     EXPECT_EQ(f.checks[i].name, r.checks[i].name);
+    EXPECT_EQ(f.checks[i].cause, r.checks[i].cause);
     EXPECT_EQ(f.checks[i].passed, r.checks[i].passed);
     EXPECT_EQ(f.checks[i].value, r.checks[i].value);
     EXPECT_EQ(f.checks[i].limit, r.checks[i].limit);

@@ -31,7 +31,6 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   const lines = badge.appendChild(make('div'));
   lines.append(make('strong', '', words));
   lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
-  if (result.cause) what.append(make('p', 'fail', result.cause));
   if (result.failures?.length) what.append(make('p', 'fail', `Failures injected by the scenario: ${result.failures.join('; ')}`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
 }

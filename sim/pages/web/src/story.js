@@ -43,7 +43,7 @@ function storyLines({result, path}) {
   }
   if (result.goal_missed_unchecked) lines.push('No check requires the goal; to require it, add {check: reached_goal} to the checks.');
   const status = path.statuses[path.status[end]];
-  if (status) {
+  if (status && ['collided', 'fault'].includes(result.outcome)) {
     const since_s = path.t[heldSince(path.status)];
     lines.push(since_s > 0 ? `Module status “${status}” for the last ${fixed(t_s - since_s, 1)} s.` : `Module status “${status}” during the whole flight.`);
   }
