@@ -78,9 +78,23 @@ Json group_row(const GroupSummary& group, bool anytime) {
           {"median_time_s", json_number(group.median_time_s)}};
 }
 
-GroupSummary all_of(std::vector<FlightRecord> records) {
+GroupSummary all_of(std::vector<FlightRecord> records, const std::set<std::string>& controls = {}) {
+  std::erase_if(records, [&](const FlightRecord& record) { return controls.contains(record.order.group); });
   for (FlightRecord& record : records) record.order.group = "all flights";
   return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
+}
+
+/// Returns the name of the failed check with the earliest time; checks of the whole flight are last.
+std::string first_failed(const FlightRecord& record) {
+  const Verdict verdict = verdict_of(record);
+  if (holds(verdict)) return "";
+  if (verdict == Verdict::not_flown) return outcome_words(record);
+  const CheckResult* first = nullptr;
+  const auto time_s = [](const CheckResult& check) { return check.t_s.value_or(INFINITY); };
+  for (const CheckResult& check : record.result->flight.checks) {
+    if (!check.passed && (first == nullptr || time_s(check) < time_s(*first))) first = &check;
+  }
+  return first == nullptr ? outcome_words(record) : first->name;
 }
 
 /// Returns a key of scenario and seed, which is equal for flights that differ in their settings only.
@@ -139,6 +153,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
     if (verdict != Verdict::passed) {
       notes[i].why = verdict == Verdict::unchecked ? std::string(kNoChecks) : outcome_words(records[i]);
     }
+    notes[i].first_failed = first_failed(records[i]);
     if (!records[i].cause.empty()) notes[i].why += ": " + records[i].cause;
     notes[i].has_report = std::filesystem::exists(flight / "report.html");
     notes[i].has_replay = std::filesystem::exists(flight / "replay.html");
@@ -147,6 +162,7 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
       FlightRecord whole = records[i];
       whole.result = read_result(flight / "result.json");
       notes[i].why = failure_words(whole);
+      notes[i].first_failed = first_failed(whole);
       for (const CheckResult& check : whole.result->flight.checks) {
         notes[i].units["check." + check.name] = check.unit;
       }
@@ -196,9 +212,9 @@ std::vector<std::string> swept_columns(const FlightList& flights) {
   return point < status ? std::vector<std::string>(point + 1, status) : std::vector<std::string>();
 }
 
-Json groups_data(const std::vector<FlightRecord>& records, bool anytime) {
+Json groups_data(const std::vector<FlightRecord>& records, bool anytime, const std::set<std::string>& controls) {
   const std::vector<GroupSummary> groups = summarize(records);
-  Json rows = Json::array({group_row(all_of(records), anytime)});
+  Json rows = Json::array({group_row(all_of(records, controls), anytime)});
   if (groups.size() > 1) {
     for (const GroupSummary& group : groups) rows.push_back(group_row(group, anytime));
   }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace hedgehop::sim {
 struct FlightNotes {
   std::string why;                           ///< failure_words() of its result
   std::map<std::string, std::string> units;  ///< of columns `metric.NAME` and `check.NAME`
+  std::string first_failed;  ///< name of the check that failed first, else the outcome; empty if all hold
   bool has_report = false, has_replay = false;
 };
 /// Returns the notes of all records. @param folder  of the campaign.
@@ -30,10 +32,11 @@ nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const st
 std::vector<std::string> swept_columns(const FlightList& flights);
 
 /// Returns one row for all flights, then one row with a 95 % interval per group of flights that differ in the seed
-/// only.
+/// only. The row for all flights excludes the groups of a leaderboard's control.
 /// @param anytime  whether the intervals are valid at any time, for flights with a stopping rule; else Wilson
 /// intervals.
-nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime);
+nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime,
+                                   const std::set<std::string>& controls = {});
 
 /// Returns the comparison with an earlier campaign: `flights` (one per row of `now`; null if the earlier campaign lacks
 /// the flight), `groups` of equal name with both rates and the 95 % interval of the change, and the ids of removed

@@ -52,6 +52,19 @@ std::vector<std::optional<FlownPath>> read_paths(const std::filesystem::path& fo
   return paths;
 }
 
+/// Returns the groups of flights of a leaderboard's control, which a mean over modules must not contain.
+std::set<std::string> control_groups(const Json& board) {
+  std::set<std::string> groups, names;
+  if (board.is_null()) return groups;
+  for (const Json& module : board.at("modules")) {
+    if (module.at("control").get<bool>()) names.insert(module.at("name").get<std::string>());
+  }
+  for (const Json& cell : board.at("cells")) {
+    if (names.contains(cell.at("module").get<std::string>())) groups.insert(cell.at("group").get<std::string>());
+  }
+  return groups;
+}
+
 /// Returns the result of a search for failures with the paths of the stored failures; null for any other campaign.
 Json search_data(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
@@ -118,11 +131,13 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["swept"] = swept_columns(flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
   data["claims"] = claims_data(folder, flights.records);
-  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime");
+  data["controls"] = control_groups(data["leaderboard"]);
+  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime", data["controls"]);
   data["columns"] = columns_data(flights.table, notes);
-  for (const char* key : {"why", "report", "replay"}) data[key] = Json::array();
+  for (const char* key : {"why", "failed", "report", "replay"}) data[key] = Json::array();
   for (const FlightNotes& note : notes) {
     data["why"].push_back(note.why);
+    data["failed"].push_back(note.first_failed);
     data["report"].push_back(note.has_report ? 1 : 0);
     data["replay"].push_back(note.has_replay ? 1 : 0);
   }

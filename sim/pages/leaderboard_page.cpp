@@ -69,7 +69,10 @@ Json figures(const FlightList& flights, const std::set<std::string>& groups) {
 }
 
 Json cell_data(const Json& cell, const FlightList& flights) {
-  Json data{{"world", cell.at("world")}, {"module", cell.at("module")}, {"reason", cell.at("reason")}};
+  Json data{{"world", cell.at("world")},
+            {"module", cell.at("module")},
+            {"group", cell.at("group")},
+            {"reason", cell.at("reason")}};
   data.update(figures(flights, {cell.at("group").get<std::string>()}));
   return data;
 }

@@ -106,6 +106,7 @@ namespace {
 
 constexpr float kBlackDepthM = 50.0f;
 constexpr int kCaptionPx = 22;
+constexpr double kWidestSheet = 2.8;  // width per height, as in the pages' film.js
 
 cv::Mat to_rgb(const cv::Mat& image) {
   cv::Mat rgb;
@@ -140,7 +141,9 @@ cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
     tile.height = std::max(tile.height, frame.image.rows);
   }
   const int count = static_cast<int>(frames.size());
-  const int columns = std::min(count, 3);
+  int columns = std::min(count, 3);
+  // A film that is much wider than high is a thin strip on every page: two rows then.
+  if (columns * tile.width > kWidestSheet * tile.height * ((count + columns - 1) / columns)) columns = (count + 1) / 2;
   const int rows = (count + columns - 1) / columns;
   cv::Mat sheet(rows * tile.height, columns * tile.width, CV_8UC3, cv::Scalar::all(24));
   for (int i = 0; i < count; ++i) {

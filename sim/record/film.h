@@ -58,8 +58,8 @@ class FilmWatcher : public FlightWatcher {
   std::string fault_;
 };
 
-/// Returns all frames side by side, three per row, each with its role; CV_8UC3, RGB. Depth is white at 0 m and black
-/// from 50 m.
+/// Returns all frames side by side, three per row, or in two rows if one row is very wide, each with its role; CV_8UC3,
+/// RGB. Depth is white at 0 m and black from 50 m.
 cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames);
 
 }  // namespace hedgehop::sim

@@ -107,6 +107,56 @@ TEST(CampaignInBrowser, OpensAsOneFileAndSortsFiltersAndSelects) {
   EXPECT_EQ(page.value.at("worst"), records[static_cast<size_t>(earliest)].order.id);
 }
 
+TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedCheck) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(60, 5);
+  for (size_t i = 0; i < 20; i += 2) {  // ends at its duration; has no goal
+    FlightResult& result = records[i].result->flight;
+    result.outcome = Outcome::timeout;
+    result.checks.push_back({.name = "max_tilt", .passed = i >= 6, .value = 31.0, .limit = 30.0, .unit = "deg"});
+  }
+  write_sweep(folder.path(), records);
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const text = (e) => e.textContent, groups = document.getElementById('groups');
+    const rows = [...groups.querySelectorAll('tbody tr')].map((tr) => [...tr.children].map(text));
+    return {rows: rows.length, hidden: groups.scrollHeight - groups.clientHeight, rates: rows.slice(1).map((row) => Number(row[2])),
+            badge: text(document.querySelector('#head .badge')), tile: text(document.querySelectorAll('#head .tile')[2]),
+            outcomes: [...new Set([...document.querySelectorAll('#flights tbody tr')].map((tr) => text(tr.children[3])))].sort()};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value.at("rows"), 61);
+  EXPECT_EQ(page.value.at("hidden"), 0);
+  const auto rates = page.value.at("rates").get<std::vector<int>>();
+  EXPECT_TRUE(std::ranges::is_sorted(rates));
+  EXPECT_EQ(std::ranges::count(rates, 0), 33);
+  EXPECT_THAT(page.value.at("badge").get<std::string>(),
+              HasSubstr("33 of 60 did not passby the first failed check: collision: 30, max tilt: 3"));
+  EXPECT_THAT(page.value.at("tile").get<std::string>(),
+              HasSubstr("20 reached + 10 completed + 30 collided = 60 flights"));
+  EXPECT_EQ(page.value.at("outcomes"), nlohmann::json::array({"collided", "completed", "reached"}));
+}
+
+TEST(CampaignInBrowser, ShowsLongNamesCompletely) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), made_up(4, 6));
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const drawn = [], {fillText} = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) { drawn.push(text); fillText.call(this, text, ...at); };
+    const names = ['a_scenario_with_a_very_long_name_and_settings avoidance.gain=2', 'short'];
+    const host = document.body.appendChild(make('div'));
+    host.style.width = '380px';
+    const axes = new Axes(host, 200, {draw: () => {}, hover: () => null, pick: () => {}});
+    axes.set(wordAxis('name', names), wordAxis('name', names));
+    const column = [...document.querySelectorAll('#groups td:first-child')].map((e) => getComputedStyle(e).position);
+    return [drawn.includes(names[0]), drawn.join('').includes(names[0].slice(0, 30)), drawn.some((text) => text.includes('…')), [...new Set(column)]];)js",
+                               400);
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse(R"([true, true, false, ["sticky"]])"));
+}
+
 TEST(CampaignInBrowser, ParetoFrontAndCellsEqualBruteForce) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;

@@ -84,8 +84,10 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
       }
     }
     const key = [...document.querySelectorAll('#collisions-card .plan-key span')].map((e) => e.textContent);
-    return {plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+    const head = [...document.querySelectorAll('#head .tile .name, #head strong')].map((e) => e.textContent);
+    return {head, plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
   EXPECT_THAT(page.errors, testing::IsEmpty());
+  EXPECT_EQ(page.value.at("head"), Json::array({"4 of 6 did not pass", "fast", "slow", "still (control)"}));
   ASSERT_EQ(page.value.at("rows").size(), 2u);
   EXPECT_EQ(page.value.at("rows")[0][0], "near");
   EXPECT_THAT(page.value.at("rows")[0][3].get<std::string>(), HasSubstr("2 of 2 0.34 to 1.00"));

@@ -17,6 +17,16 @@ function wordAxis(label, words) {
 /** Name and unit of a column. */
 function columnLabel(column) { return column.unit ? `${column.name}, ${column.unit}` : column.name; }
 
+/** Returns a text in lines of this width, broken after spaces, underscores and slashes, or anywhere in a long word. */
+function wrappedLines(c, text, width_px) {
+  const lines = [''];
+  for (const part of text.split(/(?<=[ _/])/).flatMap((word) => c.measureText(word).width > width_px ? [...word] : [word])) {
+    if (lines.at(-1) && c.measureText(lines.at(-1) + part).width > width_px) lines.push('');
+    lines[lines.length - 1] += part;
+  }
+  return lines;
+}
+
 class Axes {
   /** @param on  {draw(c, axes), hover(x, y) -> lines of text or null, pick(x, y)}: pixels of the canvas. */
   constructor(host, height, on) {
@@ -42,13 +52,20 @@ class Axes {
   draw() {
     const width = this.host.clientWidth, dpr = window.devicePixelRatio || 1;
     if (!width) return;
+    const c = this.canvas.getContext('2d'), {right, top} = axesMargin;
+    c.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    this.lines = this.yAxis.words?.map((word) => wrappedLines(c, word, 0.32 * width)) ?? [];
+    const longest = (words) => Math.max(...words.map((word) => c.measureText(word).width));
+    const {words} = this.yAxis;
+    const left = axesMargin.left + (words ? Math.max(0, longest(this.lines.flat()) + 28 - axesMargin.left) : 0);
+    // All names remain visible: the plot grows with the rows, and long names below it are turned.
+    this.turned = this.xAxis.words && longest(this.xAxis.words) + 8 > (width - left - right) / this.xAxis.words.length ? longest(this.xAxis.words) : 0;
+    const bottom = axesMargin.bottom + this.turned;
+    const height = Math.max(this.height, words ? words.length * (4 + 13 * Math.max(...this.lines.map(({length}) => length))) + top : 0) + this.turned;
     this.canvas.width = Math.round(width * dpr);
-    this.canvas.height = Math.round(this.height * dpr);
-    this.canvas.style.height = this.height + 'px';
-    const {right, top, bottom} = axesMargin, left = axesMargin.left + (this.yAxis.words ? 60 : 0);
-    this.left = left;
-    this.frame = {x: left, y: top, width: width - left - right, height: this.height - top - bottom};
-    const c = this.canvas.getContext('2d');
+    this.canvas.height = Math.round(height * dpr);
+    this.canvas.style.height = height + 'px';
+    this.frame = {x: left, y: top, width: width - left - right, height: height - top - bottom};
     c.setTransform(dpr, 0, 0, dpr, 0, 0);
     c.fillStyle = themeColor('plan');
     c.fillRect(this.frame.x, this.frame.y, this.frame.width, this.frame.height);
@@ -65,6 +82,7 @@ class Axes {
   }
 
   ticks(axis, pixels, spacing) {
+    if (axis.words) return axis.ticks;
     if (axis.ticks) {
       const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * spacing / pixels));
       return axis.ticks.filter((tick, i) => i % every === 0);
@@ -81,26 +99,32 @@ class Axes {
     c.textAlign = 'center';
     c.textBaseline = 'top';
     c.beginPath();
-    const clipped = (text, width_px) => {
-      let shown = text;
-      while (shown.length > 2 && c.measureText(shown).width > width_px) shown = shown.slice(0, -2) + '…';
-      return shown;
-    };
     const wide = this.xAxis.ticks ? Math.max(38, Math.min(90, width / this.xAxis.ticks.length)) : 70;
     for (const {value, text} of this.ticks(this.xAxis, width, wide * 0.98)) {
       if (!this.xAxis.ticks) { c.moveTo(this.x(value), y); c.lineTo(this.x(value), y + height); }
-      c.fillText(clipped(text, wide - 4), this.x(value), y + height + 5);
+      if (this.turned) {
+        c.save();
+        c.translate(this.x(value), y + height + 5);
+        c.rotate(-Math.PI / 2);
+        c.textAlign = 'right';
+        c.textBaseline = 'middle';
+        c.fillText(text, 0, 0);
+        c.restore();
+      } else {
+        c.fillText(text, this.x(value), y + height + 5);
+      }
     }
     c.textAlign = 'right';
     c.textBaseline = 'middle';
     for (const {value, text} of this.ticks(this.yAxis, height, 16)) {
       if (!this.yAxis.ticks) { c.moveTo(x, this.y(value)); c.lineTo(x + width, this.y(value)); }
-      c.fillText(clipped(text, this.left - 22), x - 5, this.y(value));
+      const lines = this.lines[value] ?? [text];
+      lines.forEach((line, i) => c.fillText(line, x - 5, this.y(value) + 13 * (i - (lines.length - 1) / 2)));
     }
     c.stroke();
     c.textAlign = 'center';
     c.textBaseline = 'alphabetic';
-    c.fillText(this.xAxis.label, x + width / 2, y + height + 34);
+    c.fillText(this.xAxis.label, x + width / 2, y + height + 34 + this.turned);
     c.save();
     c.translate(11, y + height / 2);
     c.rotate(-Math.PI / 2);

@@ -45,7 +45,7 @@ function boardCell(cell, on) {
   const words = [`${cell.collided} collided`];
   if (cell.median_clearance_m !== null) words.push(`${fixed(cell.median_clearance_m, 2)} m`);
   if (cell.path_excess !== null) words.push(`${cell.path_excess < 0 ? '' : '+'}${fixed(100 * cell.path_excess, 0)} %`);
-  words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, `${fixed(cell.decision_ms, 1)} ms`);
+  words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, measured(cell.decision_ms, 'ms', 2));
   element.append(make('div', 'soft', words.join(', ')));
   element.title = 'show only these flights';
   onChoose(element, () => on.filter(`${cell.world}_${cell.module}/`));

@@ -4,6 +4,7 @@
 const shownAtFirst = ['id', 'seed', 'outcome', 'passed', 'min_obstacle_clearance_m', 'flight_time_s', 'path_length_m',
   'mean_speed_mps', 'goal_distance_m'];
 const worstOfAKind = 5;
+const failureWords = {failed: 'no result', missing: 'not flown', no_collision: 'collision', reached_goal: 'goal not reached'};
 
 /** A button with the name of a flight that selects it. */
 function flightButton(table, row, on) {
@@ -20,22 +21,21 @@ function addRow(table, cells, tag = 'td') {
 }
 
 /** Returns the verdict on all flights: {words, more, look}. */
-function campaignVerdict(data) {
+function campaignVerdict(data, table) {
   const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [];
-  const reasons = [[all.collided, 'collided'], [all.timeout, 'timeout'], [all.broken, 'fault or no result'], [all.missing, 'missing']];
-  const more = reasons.filter(([count]) => count > 0).map(([count, word]) => `${count} ${word}`).join(', ');
+  const more = table.failureCounts(table.rowsOf(null, data.controls)).map(([name, count]) => `${failureWords[name] ?? name.replaceAll('_', ' ')}: ${count}`).join(', ');
   if (claims.length) {
     const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
     return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: claims.map(({rule}) => rule).join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
   }
   if (all.no_checks === all.flights) return {words: 'No checks', more: 'no checks defined', look: ''};
   const failed = all.flights - all.passed - all.no_checks;
-  return failed ? {words: `${failed} of ${all.flights} did not pass`, more, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
+  return failed ? {words: `${failed} of ${all.flights} did not pass`, more: `by the first failed check: ${more}`, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
 }
 
 function fillHead(host, data, table) {
   if (!data.search) {
-    const {words, more, look} = campaignVerdict(data), badge = host.appendChild(make('div', 'badge ' + look));
+    const {words, more, look} = campaignVerdict(data, table), badge = host.appendChild(make('div', 'badge ' + look));
     badge.append(make('span', 'mark', {good: '✓', bad: '✕'}[look] ?? '–'));
     badge.appendChild(make('div')).append(make('strong', '', words), make('span', '', more));
   }
@@ -50,26 +50,50 @@ function fillHead(host, data, table) {
     element.append(make('div', 'name', name), make('div', 'value', value), make('div', 'more', more));
   };
   const percent = (share) => fixed(100 * share, 1) + ' %';
+  if (data.leaderboard) return fillModuleTiles(tile, data.leaderboard);
+  const completed = completedCount(table, null), timeout = all.timeout - completed;
   const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
   if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search for failures; they give no success rate');
   else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % interval ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
-  tile('collided', String(all.collided), `of ${all.ended} flights that ended`);
-  tile('reached, timeout', `${all.reached}, ${all.timeout}`, `${all.broken} with a fault or no result, ${all.missing} missing`);
+  tile('collided', String(all.collided), `of ${all.flights} flights`);
+  const ends = [[all.reached, 'reached'], [completed, 'completed'], [timeout, 'timeout'], [all.collided, 'collided'], [all.broken, 'fault or no result'], [all.missing, 'missing']];
+  const met = ends.filter(([count]) => count > 0);
+  tile(completed ? 'reached or completed' : 'reached', String(all.reached + completed), `${met.map(([count, word]) => `${count} ${word}`).join(' + ')} = ${all.flights} flights`);
   tile('minimum clearance', meters(all.min_clearance_m), `to obstacles; median over flights ${meters(all.median_clearance_m)}`);
   tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights flown');
 }
 
-function fillGroups(host, groups) {
+/** Returns the number of timeouts that are the normal end. */
+function completedCount(table, group) {
+  return table.rowsOf(group).filter((row) => table.value('outcome', row) === 'completed').length;
+}
+
+/** The headline of a leaderboard: one tile per module, the control last and named. Modules have no common mean. */
+function fillModuleTiles(tile, board) {
+  const totals = board.modules.map((module) => ({...module, ...board.totals.find((total) => total.module === module.name)}));
+  totals.sort((a, b) => a.control - b.control || (b.passed ?? 0) / (b.flights || 1) - (a.passed ?? 0) / (a.flights || 1));
+  for (const {name, control, passed, flights, collided, worlds, low, high} of totals) {
+    const title = name + (control ? ' (control)' : '');
+    if (!flights) tile(title, '–', 'no flight with checks');
+    else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collided} collided; ${worlds} world${worlds === 1 ? '' : 's'}`);
+  }
+}
+
+function fillGroups(host, data, table) {
+  const share = (g) => g.ended ? g.passed / g.ended : 2;
+  const [all, ...rest] = data.groups, groups = [all, ...rest.sort((a, b) => share(a) - share(b))];
+  const completed = (g, i) => i ? completedCount(table, g.group) : table.rowsOf(null, data.controls).filter((row) => table.value('outcome', row) === 'completed').length;
+  if (data.controls.length) all.group = 'all flights without the control';
   const element = host.appendChild(make('table')), head = element.appendChild(make('thead'));
   addRow(head, [['scenario', ''], ['flights', 'number'], ['passed', 'number'], ['rate with 95 % interval', ''], ['', 'number'], ['reached', 'number'],
-    ['collided', 'number'], ['timeout', 'number'], ['fault', 'number'], ['missing', 'number'], ['minimum clearance, m', 'number'],
+    ['completed', 'number'], ['collided', 'number'], ['timeout', 'number'], ['fault', 'number'], ['missing', 'number'], ['minimum clearance, m', 'number'],
     ['median of minimum clearance, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
-  for (const g of groups) {
-    const row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
+  for (const [i, g] of groups.entries()) {
+    const done = completed(g, i), row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
       [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
-      ...[g.reached, g.collided, g.timeout, g.broken, g.missing].map((n) => [String(n), 'number']),
+      ...[g.reached, done, g.collided, g.timeout - done, g.broken, g.missing].map((n) => [String(n), 'number']),
       [fixed(g.min_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
     const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
     span.style.left = 100 * g.low + '%';
@@ -92,6 +116,7 @@ function worstFlights(table, rows) {
     {title: 'Minimum clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
       words: (row) => meters(table.value('min_obstacle_clearance_m', row))},
     {title: 'Timeout, largest distance to the goal first', rows: first(failing('timeout'), 'goal_distance_m', true), words: (row) => meters(table.value('goal_distance_m', row))},
+    {title: 'Completed, but a check failed', rows: failing('completed').slice(0, worstOfAKind), words: (row) => table.why[row]},
     {title: 'Goal reached, but a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
     {title: 'Passed, slowest first', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
     {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
@@ -156,7 +181,7 @@ function main() {
   const data = JSON.parse(document.getElementById('data').textContent), table = new FlightTable(data);
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
-  fillGroups(host('groups'), data.groups);
+  fillGroups(host('groups'), data, table);
   if (data.search) {
     host('groups-card').remove();
     host('claims-card').remove();

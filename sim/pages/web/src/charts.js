@@ -79,10 +79,10 @@ class Charts {
    * @param panels  of the report's data.
    * @param on  {hover(t), pick(t)}.
    * @param failures  of failuresOf(), shaded.
-   * @param axis  like timeAxis.
+   * @param axis  like timeAxis. @param height  of a plot, px.
    */
-  constructor(host, panels, sectionNotes, on, failures = [], axis = timeAxis) {
-    Object.assign(this, {on, failures, axis, plots: [], following: false});
+  constructor(host, panels, sectionNotes, on, failures = [], axis = timeAxis, height = plotHeight) {
+    Object.assign(this, {on, failures, axis, height, plots: [], following: false});
     const sections = new Map();
     for (const panel of panels) {
       if (!sections.has(panel.section)) sections.set(panel.section, this.addSection(host, panel.section, sectionNotes));
@@ -100,9 +100,10 @@ class Charts {
     }
     this.build();
     const fit = () => this.plots.forEach(({u, host: {clientWidth}}) => {
-      if (clientWidth && u.width !== clientWidth) u.setSize({width: clientWidth, height: plotHeight});
+      if (clientWidth && u.width !== clientWidth) u.setSize({width: clientWidth, height});
     });
-    new ResizeObserver(() => requestAnimationFrame(fit)).observe(host);
+    const observer = new ResizeObserver(() => requestAnimationFrame(fit));
+    for (const {host: plot} of this.plots) observer.observe(plot);
   }
 
   addSection(host, name, notes) {
@@ -125,7 +126,7 @@ class Charts {
     const axis = {stroke: soft, grid, ticks: {...grid, size: 4}, font, labelFont: font, labelSize: 16, labelGap: 0};
     const looks = seriesLooks(panel.series), {label: xLabel, symbol, unit, points} = this.axis;
     return {
-      width: host.clientWidth || 400, height: plotHeight,
+      width: host.clientWidth || 400, height: this.height,
       scales: {x: {time: false, distr: this.axis.log ? 3 : 1}, y: {range: valueRange(panel)}},
       cursor: {y: false, drag: {x: true, y: false}, points: {size: 6}, bind: {
         mouseup: (u, target, handler) => (event) => {
@@ -142,7 +143,7 @@ class Charts {
       axes: [{...axis, size: 30, label: xLabel, labelSize: 14,
         values: (u, splits) => splits.map((v) => v === null ? '' : v.toLocaleString('en-US').replace('-', '−'))},
         {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map((v) => short(v))}],
-      series: [{label: symbol, value: (u, v) => v === null ? '' : `${v.toFixed(2)} ${unit}`},
+      series: [{label: symbol, value: (u, v) => v === null ? '' : `${fixed(v, 2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
           label, stroke: looks[i].color, width: looks[i].width, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},
           paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,

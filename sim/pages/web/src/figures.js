@@ -23,6 +23,13 @@ function fixed(value, decimals) {
   if (value === null || value === undefined) return '–';
   return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, '').replace('-', '−');
 }
+/** Returns a number with its unit; a small time in a smaller unit: "0.25 µs", not "0.00025 ms". */
+function measured(value, unit, figures = 4) {
+  const units = ['s', 'ms', 'µs', 'ns'];
+  let i = units.indexOf(unit);
+  if (value && i >= 0) for (; Math.abs(value) < 0.01 && i < units.length - 1; ++i) value *= 1000;
+  return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unit) : '');
+}
 function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 
 /** Returns a CSS variable of the current theme. */

@@ -7,6 +7,24 @@ class FlightTable {
     this.columns = new Map(data.columns.map((column) => [column.name, column]));
     this.count = this.columns.get('id').values.length;
     this.why = data.why;
+    this.failed = data.failed;
+    const outcomes = this.columns.get('outcome'), goals = this.columns.get('goal_distance_m');
+    // A timeout without a goal is the normal end of a flight.
+    const completed = (row) => outcomes.values[row] === 'timeout' && (goals?.values[row] ?? null) === null;
+    if (!outcomes) return;
+    this.why = this.why.map((words, row) => completed(row) ? words.replace(/^timeout/, 'completed') : words);
+    outcomes.values = outcomes.values.map((word, row) => completed(row) ? 'completed' : word);
+  }
+  /** Returns the counts of the flights by their first failed check: [[name, count], ...], most frequent first. */
+  failureCounts(rows) {
+    const counts = new Map();
+    for (const row of rows) if (this.failed[row]) counts.set(this.failed[row], (counts.get(this.failed[row]) ?? 0) + 1);
+    return [...counts].sort(([, a], [, b]) => b - a);
+  }
+  /** Returns the rows of a group, or of all groups except these. */
+  rowsOf(group, without = []) {
+    const groupOf = (row) => this.value('group', row) ?? '';
+    return Array.from({length: this.count}, (_, row) => row).filter((row) => group === null ? !without.includes(groupOf(row)) : groupOf(row) === group);
   }
   value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
   /** 'passed', 'collided', 'failed' (another check), 'unchecked' (no checks) or 'missing'. */

@@ -73,7 +73,10 @@ class FlightsView {
     const value = column.values[row];
     if (column.name === 'passed' && value === null) return make('td', 'soft', this.table.why[row] === 'no checks' ? 'no checks' : '–');
     if (column.name === 'passed') return make('td', value ? 'pass' : 'fail', value ? '✓' : '✕');
-    if (!column.is_text) return make('td', 'number', Number.isInteger(value) ? String(value).replace('-', '−') : short(value));
+    if (!column.is_text) {
+      const small = value && Math.abs(value) < 0.01 && ['s', 'ms'].includes(column.unit);
+      return make('td', 'number', small ? measured(value, column.unit) : Number.isInteger(value) ? String(value).replace('-', '−') : short(value));
+    }
     const cell = make('td', '', column.name === 'id' && this.data.report[row] ? '' : value);
     cell.title = value;
     if (column.name === 'id' && this.data.report[row]) {

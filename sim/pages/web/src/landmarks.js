@@ -126,11 +126,11 @@ class LandmarksView {
     const near = (place) => Math.hypot(map.x(place.e) - x, map.y(place.n) - y) < 9;
     const point = this.chart.points.find(near), corner = this.chart.corners.find(near);
     const lines = [];
-    const placed = ({n, e, d}) => `${placeText(n, e)}, ${(-d).toFixed(1)} m high`;
+    const placed = ({n, e, d}) => `${placeText(n, e)}, ${fixed(-d, 1)} m high`;
     if (point) {
       const {major, minor} = ellipseOf(point.covariance);
       lines.push(point.true === false ? 'false landmark' : 'landmark', placed(point),
-        `standard deviations ${major.toFixed(2)} and ${minor.toFixed(2)} m`);
+        `standard deviations ${fixed(major, 2)} and ${fixed(minor, 2)} m`);
     }
     if (corner) lines.push('true corner', placed(corner));
     map.showTip(x, y, lines.length ? lines : map.placeLines(x, y));

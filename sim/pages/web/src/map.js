@@ -4,7 +4,7 @@
 const mapMargin = {left: 46, right: 12, top: 12, bottom: 34};
 
 function placeText(north, east) {
-  return `north ${north.toFixed(1)} m, east ${east.toFixed(1)} m`.replaceAll('-', '−');
+  return `north ${fixed(north, 1)} m, east ${fixed(east, 1)} m`;
 }
 
 class MapView {
@@ -15,7 +15,7 @@ class MapView {
    * @param on  {draw(c, map) over the scene; key(host) fills the legend; hover(x, y), leave(), click()}: pixels of the map.
    */
   constructor(host, plan, reach, on) {
-    Object.assign(this, {host, plan, reach, on});
+    Object.assign(this, {host, plan, reach, on, lowest: 0});  // lowest: minimum height, px
     host.classList.add('map');
     this.canvas = host.appendChild(document.createElement('canvas'));
     this.tip = host.appendChild(make('div', 'tip'));
@@ -71,7 +71,8 @@ class MapView {
     const width = this.host.clientWidth;
     const inner = width - mapMargin.left - mapMargin.right;
     const tallest = Math.min(window.innerWidth < 600 ? 460 : 680, 1.15 * width);
-    const height = Math.min(Math.max(inner * this.whole.height / this.whole.width + mapMargin.top + mapMargin.bottom, 220), tallest);
+    const own = Math.min(Math.max(inner * this.whole.height / this.whole.width + mapMargin.top + mapMargin.bottom, 220), tallest);
+    const height = Math.max(own, this.lowest);
     const dpr = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(width * dpr);
     this.canvas.height = Math.round(height * dpr);
@@ -116,27 +117,32 @@ class MapView {
 
   drawAxes(c) {
     const {x, y, width, height} = this.frame;
-    const count = (pixels) => Math.max(2, pixels / 70);
+    const count = (pixels) => Math.max(2, pixels / 60);
     const easts = niceTicks(this.east(x), this.east(x + width), count(width));
     const norths = niceTicks(this.north(y + height), this.north(y), count(height));
-    const step = Math.max(easts.step, norths.step);
-    const onStep = (v) => Math.abs(v / step - Math.round(v / step)) < 1e-6;
-    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-    const text = (v) => (Math.abs(v) < 1e-9 ? 0 : v).toFixed(digits).replace('-', '−');
+    // Squares, unless the shorter axis of a narrow scene would lose its numbers.
+    const squares = Math.max(easts.step, norths.step);
+    const onSquares = ({values}) => values.filter((v) => Math.abs(v / squares - Math.round(v / squares)) < 1e-6);
+    for (const ticks of [easts, norths]) {
+      const shared = onSquares(ticks);
+      if (shared.length >= 2) Object.assign(ticks, {values: shared, step: squares});
+    }
+    const digits = Math.max(0, -Math.floor(Math.log10(Math.min(easts.step, norths.step)) + 1e-9));
+    const text = (v) => fixed(Math.abs(v) < 1e-9 ? 0 : v, digits);
     c.strokeStyle = themeColor('faint');
     c.fillStyle = themeColor('soft');
     c.lineWidth = 1;
     c.beginPath();
     c.textAlign = 'center';
     c.textBaseline = 'top';
-    for (const e of easts.values.filter(onStep)) {
+    for (const e of easts.values) {
       c.moveTo(this.x(e), y);
       c.lineTo(this.x(e), y + height);
       c.fillText(text(e), this.x(e), y + height + 5);
     }
     c.textAlign = 'right';
     c.textBaseline = 'middle';
-    for (const n of norths.values.filter(onStep)) {
+    for (const n of norths.values) {
       c.moveTo(x, this.y(n));
       c.lineTo(x + width, this.y(n));
       c.fillText(text(n), x - 6, this.y(n));
@@ -267,7 +273,7 @@ class MapView {
   placeLines(x, y) {
     const solid = this.solidAt(this.north(y), this.east(x));
     const lines = [placeText(this.north(y), this.east(x))];
-    if (solid) lines.unshift(`${solid.name || 'obstacle'}, ${solid.bottom.toFixed(1)} to ${solid.top.toFixed(1)} m high`);
+    if (solid) lines.unshift(`${solid.name || 'obstacle'}, ${fixed(solid.bottom, 1)} to ${fixed(solid.top, 1)} m high`);
     return lines;
   }
 

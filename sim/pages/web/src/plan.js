@@ -146,9 +146,9 @@ class PlanView {
   rowLines(i) {
     const {path} = this;
     const status = path.status[i] >= 0 ? ', ' + path.statuses[path.status[i]] : '';
-    return [`t = ${path.t[i].toFixed(2)} s${status}`,
+    return [`t = ${fixed(path.t[i], 2)} s${status}`,
       `clearance ${path.clearance[i] === null ? 'none within range' : meters(path.clearance[i])}`,
-      `speed ${path.speed[i].toFixed(2)} m/s, altitude ${path.altitude[i].toFixed(1)} m`,
+      `speed ${fixed(path.speed[i], 2)} m/s, altitude ${fixed(path.altitude[i], 1)} m`,
       placeText(path.n[i], path.e[i])];
   }
 

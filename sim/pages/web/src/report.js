@@ -6,7 +6,7 @@ function judge(outcome, goal) {
   switch (outcome) {
     case 'reached': return {words: 'Reached the goal', good: true};
     case 'collided': return {words: 'Collided', good: false};
-    case 'timeout': return goal ? {words: 'Timeout before the goal', good: false} : {words: 'Completed (no goal)', good: true};
+    case 'timeout': return goal ? {words: 'Timeout before the goal', good: false} : {words: 'Completed', good: true};
     case 'fault': return {words: 'Ended by a fault', good: false};
     default: return {words: outcome, good: false};
   }
@@ -43,15 +43,19 @@ function fillTiles(host, result) {
     if (unit) line.append(' ', make('small', '', unit));
     element.append(make('div', 'more', more));
   };
-  const where = (p) => p ? `${p.what || 'obstacle'} at ${p.t_s.toFixed(1)} s` : 'no obstacle within range';
+  const where = (p) => p ? `${p.what || 'obstacle'} at ${fixed(p.t_s, 1)} s` : 'no obstacle within range';
   tile('flight time', fixed(result.flight_time_s, 1), 's', `${result.decisions} decisions`);
   tile('path length', fixed(result.path_length_m, 1), 'm', `mean speed ${fixed(result.mean_speed_mps, 2)} m/s`);
   tile('minimum clearance to obstacles', fixed(result.min_obstacle_clearance_m, 2), 'm', where(result.closest_obstacle));
   tile('minimum clearance to the ground', fixed(result.min_ground_clearance_m, 2), 'm', where(result.closest_ground));
   if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
-  tile('decision time', short(result.decision_ms.median, 3), 'ms', `95 % below ${short(result.decision_ms.p95, 3)} ms`);
-  tile('rendering', short(result.render_ms.median, 3), 'ms', `95 % below ${short(result.render_ms.p95, 3)} ms`);
-  tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${short(result.wall_s, 3)} s of wall time`);
+  const stage = (name, {median, p95}) => {
+    const [value, unit = ''] = measured(median, 'ms', 3).split(' ');
+    tile(name, value, unit, `95 % below ${measured(p95, 'ms', 3)}`);
+  };
+  stage('decision time', result.decision_ms);
+  stage('rendering', result.render_ms);
+  tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${measured(result.wall_s, 's', 3)} of wall time`);
 }
 
 function addRow(table, cells, tag = 'td') {
@@ -70,10 +74,10 @@ function fillChecks(host, checks) {
   const table = host.appendChild(make('table'));
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
   for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
-    const measure = (v) => v === null ? '–' : short(v) + (unit ? ' ' + unit : '');
+    const measure = (v) => measured(v, unit);
     addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
-      [t_s === null || t_s === undefined ? '' : `${t_s.toFixed(2)} s`, 'number']]);
+      [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);
     if (passed || !cause) continue;
     addRow(table, [['', ''], [cause, 'soft']]);
     table.lastChild.lastChild.colSpan = 4;
@@ -90,14 +94,14 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
     addRow(table, [[title, ''], ['', 'number']], 'th');
     rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
   };
-  const stage = (s) => s ? `${short(s.median, 3)} ms, 95 % below ${short(s.p95, 3)} ms` : '–';
+  const stage = (s) => s ? `${measured(s.median, 'ms', 3)}, 95 % below ${measured(s.p95, 'ms', 3)}` : '–';
   add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]]);
   add('wall time, median', [['decision', stage(result.decision_ms)], ['images of all cameras', stage(result.render_ms)],
     ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
   const metrics = Object.entries(result.metrics);
   if (metrics.length) {
     add('metrics of the module', metrics.map(([name, value]) =>
-      [name.replaceAll('_', ' '), short(value) + ' ' + (result.metric_units?.[name] || '')]));
+      [name.replaceAll('_', ' '), measured(value, result.metric_units?.[name] || '')]));
   }
   const scenario = host.appendChild(make('details'));
   scenario.append(make('summary', '', 'Resolved scenario'), make('pre', '', scenario_yaml));
@@ -143,6 +147,31 @@ function dropUnflownGoal({map, plan}) {
   if (!map.course.some(([cn, ce]) => Math.hypot(cn - n, ce - e) <= radius)) plan.goal = null;
 }
 
+/** Fits the columns of plan and film, so that both end at the same height, and stretches the plan to its column. */
+function fitPair(pair, map, filmView) {
+  const width = pair.clientWidth, stack = pair.lastElementChild, planCard = pair.firstElementChild;
+  const scene = map.whole.width / map.whole.height, apart = 16;
+  const stacked = width < 868 || scene > 2.2;
+  pair.classList.toggle('stacked', stacked);
+  let columns = '';
+  map.lowest = 0;
+  if (!stacked) {
+    const aspect = filmView?.aspect || 1.5, film = document.getElementById('film-card');
+    const rest = stack.scrollHeight - (film ? (film.clientWidth - 32) / aspect : 0);
+    const planHeight = (w) => Math.min(680, Math.max(220, (w - 90) / scene + 46)) + 110;
+    const stackHeight = (w) => (film ? (width - apart - w - 32) / aspect : 0) + rest;
+    let best = 0.5 * width, least = Infinity;
+    for (let w = 0.3 * width; w <= 0.68 * width; w += 10) {
+      const apart_px = Math.abs(planHeight(w) - stackHeight(w));
+      if (apart_px < least) [least, best] = [apart_px, w];
+    }
+    columns = `${Math.round(best)}px minmax(0, 1fr)`;
+  }
+  pair.style.gridTemplateColumns = columns;
+  if (!stacked) map.lowest = stack.clientHeight - (planCard.clientHeight - map.canvas.clientHeight);
+  map.draw();
+}
+
 function main() {
   const data = JSON.parse(document.getElementById('data').textContent);
   dropUnflownGoal(data);
@@ -150,7 +179,7 @@ function main() {
   fillTiles(document.getElementById('tiles'), data.result);
   fillChecks(document.getElementById('checks'), data.result.checks);
   fillDetails(document.getElementById('details'), data);
-  const film = openFilm();
+  const film = openFilm(), filmView = film && new FilmView(film);
   if (film) setPoster(film, data.result.closest_obstacle?.t_s ?? 0);
   fillStory(document.getElementById('story'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();
@@ -184,6 +213,14 @@ function main() {
     film.addEventListener('play', follow);
     film.addEventListener('seeked', ask);
   }
+
+  // Without a film, the first plots are next to the plan.
+  const pair = document.querySelector('.pair'), stack = pair.lastElementChild;
+  if (!film) stack.append(...[...document.querySelectorAll('#charts .chart')].slice(0, 4).filter((chart, i) => i % 2 === 0));
+  const fit = () => fitPair(pair, plan.map, filmView);
+  fit();
+  film?.addEventListener('opened', fit);
+  addEventListener('resize', fit);
 
   const color = document.getElementById('plan-color');
   plan.colorings.forEach(({name}) => color.append(make('option', '', name)));
