@@ -41,14 +41,19 @@ def fly(root, hedgehop, scenario, seconds, options):
     return cpu_s() - before, json.loads((out / "result.json").read_text())
 
 
-def print_page(root, hedgehop):
-    """The report of a flight of five minutes."""
+def long_flight(root, hedgehop):
+    """Flies for five minutes. Returns the folder and the time flown, s."""
     out = root / "out/bench/page"
     shutil.rmtree(out, ignore_errors=True)
     subprocess.run([hedgehop, "run", root / "configs/garratt2009_room_0_light.yaml", "--renderer", "tiles", "--set", "duration=300", "--set",
                     "checks=[]", "--no-video", "--out", out], stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
-    flown = json.loads((out / "result.json").read_text())["flight_time_s"]
+    return out, json.loads((out / "result.json").read_text())["flight_time_s"]
+
+
+def print_page(root, hedgehop):
+    """The report of a flight of five minutes."""
+    out, flown = long_flight(root, hedgehop)
     begin = time.monotonic()
     subprocess.run([hedgehop, "report", out], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     seconds = time.monotonic() - begin

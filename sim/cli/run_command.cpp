@@ -7,16 +7,19 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "sim/batch/record.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/live_view.h"
 #include "sim/cli/progress.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/flight/words.h"
+#include "sim/pages/replay.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/film.h"
@@ -26,14 +29,26 @@
 namespace hedgehop::sim::cli {
 namespace {
 
+constexpr double kViewImagesHz = 10.0;  // of the module's image in the live view, without a video
+
 /// Records the video and shows progress.
 class RunWatcher : public FlightWatcher {
  public:
-  RunWatcher(const std::string& name, const FilmConfig& filming, const std::filesystem::path& film_file, bool quiet)
-      : film_(filming, film_file), progress_(name), quiet_(quiet) {}
+  /// @param view  whether a live view shows the images.
+  RunWatcher(const std::string& name, const FilmConfig& filming, const std::filesystem::path& film_file, bool quiet,
+             bool view)
+      : film_(filming, film_file), progress_(name), quiet_(quiet), view_(view) {}
 
-  double image_rate_hz() const override { return film_.image_rate_hz(); }
-  void on_images(const ShownInstant& shown) override { film_.on_images(shown); }
+  double image_rate_hz() const override {
+    const double film_hz = film_.image_rate_hz();
+    return view_ && film_hz == 0.0 ? kViewImagesHz : film_hz;
+  }
+  void on_images(const ShownInstant& shown) override {
+    if (film_.image_rate_hz() > 0.0) film_.on_images(shown);
+    if (!view_) return;
+    status_ = shown.status;
+    module_image_ = shown.annotated.clone();
+  }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }
@@ -43,17 +58,32 @@ class RunWatcher : public FlightWatcher {
     film_.close();
     if (!film_.fault().empty()) notice(fmt::format("warning: incomplete video: {}\n", film_.fault()));
   }
+  /// The status of the module at its last image, and the image; only with a view.
+  const std::string& status() const { return status_; }
+  const cv::Mat& module_image() const { return module_image_; }
 
  private:
   FilmWatcher film_;
   FlightProgress progress_;
-  bool quiet_;
+  bool quiet_, view_;
+  std::string status_;
+  cv::Mat module_image_;
 };
 
 /// A worker whose campaign is gone must not go on: another may fly into the same folder.
 void die_with(pid_t campaign) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != campaign) throw std::runtime_error("the campaign that started this worker is gone");
+}
+
+/// Flies to the end. The view observes every decision and changes nothing.
+Flight fly(Simulation& simulation, const RunWatcher& watcher, LiveView* view) {
+  if (view == nullptr) return simulation.run();
+  do {
+    view->show(simulation, watcher.status(), watcher.module_image());
+  } while (simulation.step());
+  view->show(simulation, watcher.status(), watcher.module_image());
+  return simulation.result();
 }
 
 std::string command_line(const RunOptions& options, const Scenario& scenario) {
@@ -116,8 +146,11 @@ int run(const RunOptions& options) {
   const std::filesystem::path film = out / "video.webm";
   FilmConfig filming = scenario.film;
   filming.enabled = filming.enabled || keeps(options, "film", true);
-  RunWatcher watcher(scenario.name, filming, film, options.worker_of != 0);
-  const Flight flight = Simulation(std::move(loaded), &watcher).run();
+  RunWatcher watcher(scenario.name, filming, film, options.worker_of != 0, options.view);
+  Simulation simulation(std::move(loaded), &watcher);
+  std::optional<LiveView> view;
+  if (options.view) view.emplace(simulation);
+  const Flight flight = fly(simulation, watcher, view ? &*view : nullptr);
   watcher.close();
   const bool failed = !holds(verdict_of(flight.result));
   std::error_code ignored;
@@ -131,6 +164,7 @@ int run(const RunOptions& options) {
                      options.scenario.file.string(),
                      command_line(options, scenario),
                      to_yaml(scenario)};
+  if (view) view->end(info, flight.result);
   write_result_files(out, info, flight);
   bool has_report = !options.no_report || keeps(options, "report", failed);
   const bool has_replay = keeps(options, "replay", failed);

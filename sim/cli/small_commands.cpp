@@ -14,6 +14,7 @@
 #include "sim/config/input_error.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
+#include "sim/pages/replay.h"
 #include "sim/pages/report.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/list_topics.h"

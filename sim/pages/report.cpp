@@ -13,7 +13,6 @@
 #include "sim/pages/decimate.h"
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"
-#include "sim/pages/replay_data.h"
 #include "sim/pages/report_page.h"
 #include "sim/scenario/reference_path.h"
 
@@ -178,6 +177,18 @@ PageFilm find_film(const std::filesystem::path& run_folder) {
 
 }  // namespace
 
+Json panels_data(const FlightResult& result, const Table& trajectory, const Table& decisions, size_t max_points) {
+  Json json = Json::array();
+  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result));
+  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
+  for (const std::string_view section : kSections) {
+    for (const Panel& panel : panels) {
+      if (panel.section == section) json.push_back(panel_json(panel, max_points));
+    }
+  }
+  return json;
+}
+
 Json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,
                  const Table& decisions, size_t max_points) {
   Json json;
@@ -189,14 +200,7 @@ Json report_data(const ReportScenario& scenario, const RunResult& result, const 
   json["scenario_yaml"] = scenario.yaml;
   json["plan"] = plan_json(scenario, trajectory.numbers("down_m"));
   json["path"] = path_json(trajectory, decisions, max_points);
-  json["panels"] = Json::array();
-  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result.flight));
-  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
-  for (const std::string_view section : kSections) {
-    for (const Panel& panel : panels) {
-      if (panel.section == section) json["panels"].push_back(panel_json(panel, max_points));
-    }
-  }
+  json["panels"] = panels_data(result.flight, trajectory, decisions, max_points);
   return json;
 }
 
@@ -206,22 +210,6 @@ void write_report(const std::filesystem::path& run_folder, const RunRecord& run)
   data["references"] = references_json(run.scenario.checks);
   data["has_replay"] = std::filesystem::exists(run_folder / "replay.html");
   write_file_whole(run_folder / "report.html", report_page(title(run), text(data), find_film(run_folder)));
-}
-
-void write_replay(const std::filesystem::path& run_folder, const RunRecord& run) {
-  nlohmann::ordered_json data;
-  data["result"] = to_json(run.result.info, run.result.flight);
-  data["has_report"] = std::filesystem::exists(run_folder / "report.html");
-  data["scene"] = replay_scene(*run.scene, run.result.flight.flight_time_s);
-  data["hull"] = replay_hull(dynamics::hull(run.scenario.vehicle));
-  data["path"] = replay_path(run.trajectory);
-  data["statuses"] = replay_statuses(run.decisions);
-  data["has_film"] = std::filesystem::exists(run_folder / "video.webm");
-  data["goal"] = nullptr;
-  if (const auto& goal = run.scenario.goal) {
-    data["goal"] = {milli(goal->north_m), milli(goal->east_m), milli(-goal->altitude_m), milli(goal->radius_m)};
-  }
-  write_file_whole(run_folder / "replay.html", replay_page(title(run), text(data)));
 }
 
 }  // namespace hedgehop::sim

@@ -32,14 +32,14 @@ struct ReportScenario {
 nlohmann::ordered_json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,
                                    const Table& decisions, size_t max_points = 4000);
 
+/// Returns the time plots of a flight, each decimated to about `max_points`. Throws as report_data().
+nlohmann::ordered_json panels_data(const FlightResult& result, const Table& trajectory, const Table& decisions,
+                                   size_t max_points);
+
 /// Writes `report.html` into the folder of a run. The page needs no network. It embeds the film (`video.webm` in the
 /// folder) if the film is smaller than 40 MB, else it links the film. It links `replay.html` if the folder has one.
 /// Throws PagesAbsent, and std::runtime_error with the file and the cause if the film cannot be read or the page cannot
 /// be written.
 void write_report(const std::filesystem::path& run_folder, const RunRecord& run);
-
-/// Writes `replay.html` into the folder of a run: the flight in three dimensions. The page needs no network.
-/// Throws as write_report().
-void write_replay(const std::filesystem::path& run_folder, const RunRecord& run);
 
 }  // namespace hedgehop::sim

@@ -54,12 +54,12 @@ std::string page(std::string_view title, std::string_view body, std::string data
 
 std::string film_element(const PageFilm& film) {
   if (!film.bytes.empty()) {
-    return "<video id=\"film\" aria-label=\"camera images\" controls muted playsinline></video>\n"
+    return "<video id=\"film\" aria-label=\"camera images\" muted playsinline></video>\n"
            "<script type=\"text/plain\" id=\"film-bytes\">" +
            base64(film.bytes) + "</script>";
   }
   if (film.link.empty()) return "";
-  return fmt::format("<video id=\"film\" aria-label=\"camera images\" controls muted playsinline src=\"{}\"></video>",
+  return fmt::format("<video id=\"film\" aria-label=\"camera images\" muted playsinline src=\"{}\"></video>",
                      html_escaped(film.link));
 }
 
@@ -137,8 +137,8 @@ std::string reproduction_html(std::string_view title, std::string data_json) {
 }
 
 std::string replay_page(std::string_view title, std::string data_json) {
-  return page(std::string(title) + ", replay", kReplayBody, std::move(data_json), {kReportStyle, kReplayStyle},
-              {kReplayScripts});
+  return page(std::string(title) + ", replay", kReplayBody, std::move(data_json),
+              {kPlotStyle, kReportStyle, kReplayStyle}, {kPlotScript, kReplayScripts});
 }
 
 }  // namespace hedgehop::sim

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "sim/config/whole_file.h"
+#include "sim/pages/replay.h"
 #include "sim/pages/report.h"
 #include "sim/record/result_files.h"
 #include "sim/record/table.h"
@@ -170,6 +171,62 @@ TEST(ReportInBrowser, ShowsTheReferenceOfAPathCheckOnThePlan) {
   const std::string check =
       "checks=[{check: path_tolerance, at_most: 1, reference: " + (run.path() / "path.csv").string() + "}]";
   EXPECT_NE(has_reference(check), has_reference("checks=[]"));
+TEST(ReportInBrowser, FillsTheWidthWithoutEmptyHalves) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const box = (e) => e.getBoundingClientRect(), [plan, stack] = document.querySelector('.pair').children;
+    return [box(stack).right - box(plan).left, Math.abs(box(plan).bottom - box(stack).bottom)];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_GE(page.value[0].get<double>(), 1350.0);
+  EXPECT_LE(page.value[1].get<double>(), 80.0);
+}
+
+TEST(ReportInBrowser, StacksWideFilmsInTwoRowsWithTheControlsBelow) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const host = document.body.appendChild(make('div')), film = host.appendChild(make('video'));
+    const view = new FilmView(film), bar = host.querySelector('.film-bar').getBoundingClientRect();
+    return [filmRows(960, 322), film.controls, bar.top >= film.getBoundingClientRect().bottom];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  // Three images of 320 x 300 px and a caption: two of them above one.
+  EXPECT_EQ(page.value[0], nlohmann::json::parse(R"({"width": 640, "height": 622, "parts": [
+      [0, 0, 640, 300, 0, 0], [640, 0, 320, 300, 0, 300], [0, 300, 640, 22, 0, 600]]})"));
+  EXPECT_EQ(page.value[1], false);
+  EXPECT_EQ(page.value[2], true);
+}
+
+TEST(ReportInBrowser, NarrowScenesKeepNumbersOnBothAxes) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const drawn = [], {fillText} = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) { drawn.push([text, this.textAlign]); fillText.call(this, text, ...at); };
+    const host = document.body.appendChild(make('div')), counts = [];
+    for (const bounds of [[-2, 2, 0, 60], [0, 60, -2, 2]]) {
+      drawn.length = 0;
+      new MapView(host, {bounds, footprints: [], movers: [], goal: null}, {n: [], e: []}, {draw: () => {}, key: () => {}}).draw();
+      const numbers = drawn.filter(([text]) => /^−?[\d.]+$/.test(text));
+      counts.push(numbers.filter(([, align]) => align === 'center').length, numbers.filter(([, align]) => align === 'right').length);
+    }
+    return counts;)js",
+                               400);
+  EXPECT_THAT(page.errors, IsEmpty());
+  for (const auto& count : page.value) EXPECT_GE(count.get<int>(), 2) << page.value;
+}
+
+TEST(ReportInBrowser, ShowsNoNegativeZeroAndSmallTimesInTheirUnits) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    return [fixed(-0.001, 2), placeText(-0.01, -0.04), measured(0.000251, 'ms'), measured(3.5, 'ms'), measured(2e-7, 's'), measured(null, 's')];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre("0.00", "north 0.0 m, east 0.0 m", "0.251 µs", "3.5 ms", "200 ns", "–"));
 }
 
 TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
@@ -213,10 +270,9 @@ TEST(ReplayInBrowser, PlacesTheVehicleAtItsTruePose) {
   const RunFolder run;
   write_replay(run.path(), read_run(run.path()));
   const PageVisit page = visit_replay(run.path(), R"js(
-    const time = document.getElementById('time'), places = [];
+    const places = [];
     for (const t of [0, 3.21, 7.5]) {
-      time.value = t;
-      time.dispatchEvent(new Event('input'));
+      replay.setTime(t);
       places.push([replay.state.t_s, ...replay.point(1, 2, 3)]);
     }
     return places;)js");
@@ -254,11 +310,11 @@ TEST(ReplayInBrowser, CeilingDoesNotHideTheFlightBelowIt) {
     write_replay(run.path(), read_run(run.path()));
     const PageVisit page = visit_replay(run.path(), R"js(
       const camera = document.getElementById('camera');
-      camera.value = 'above';
+      camera.value = 'plan';
       camera.dispatchEvent(new Event('change'));
       return [replay.state.camera, replay.facesBefore()];)js");
     EXPECT_THAT(page.errors, IsEmpty());
-    EXPECT_EQ(page.value[0], "above");
+    EXPECT_EQ(page.value[0], "plan");
     EXPECT_EQ(page.value[1], thickness_m < 1.0 ? 0 : 1) << thickness_m;
   }
 }
@@ -274,9 +330,8 @@ TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
       element.value = value;
       element.dispatchEvent(new Event('change'));
     };
-    const play = document.getElementById('play'), time = document.getElementById('time'), seen = [1];
-    time.value = seen[0];
-    time.dispatchEvent(new Event('input'));
+    const play = document.getElementById('play'), seen = [1];
+    replay.setTime(seen[0]);
     set('speed', '0.1');
     play.click();
     const word = play.textContent;
@@ -287,13 +342,76 @@ TEST(ReplayInBrowser, PlaysPausesAndChangesCameraAndSpeed) {
     seen.push(replay.state.t_s);
     set('camera', 'chase');
     await frames(2);
-    set('camera', 'above');
+    set('camera', 'plan');
     await frames(2);
     return {word, moved: seen[1] > seen[0], rested: seen[2] === seen[1], speed: replay.state.speed, camera: replay.state.camera};
     )js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value, nlohmann::json::parse(
-                            R"({"word": "pause", "moved": true, "rested": true, "speed": 0.1, "camera": "above"})"));
+                            R"({"word": "pause", "moved": true, "rested": true, "speed": 0.1, "camera": "plan"})"));
+}
+
+TEST(ReplayInBrowser, HasOneTimeAxisForStatusEventsHandleAndKeys) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit_replay(run.path(), R"js(
+    const {track, state} = replay, canvas = document.getElementById('track'), apart = [];
+    for (const t of [0, 3.3, track.end_s]) apart.push(Math.abs(track.timeAt(track.x(t)) - t));
+    replay.setTime(3);
+    canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', cancelable: true}));
+    const moved = state.t_s;
+    canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'End', cancelable: true}));
+    return [Math.max(...apart) < 1e-9, Math.abs(moved - 3.1) < 1e-9, state.t_s === track.end_s, track.events.at(-1).t_s === track.end_s,
+            track.statuses.length > 0];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre(true, true, true, true, true));
+}
+
+TEST(ReplayInBrowser, ShowsTexturesLightAndTheImagesOfAllCameras) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  const RunRecord record = read_run(run.path());
+  write_replay(run.path(), record);
+  EXPECT_LT(std::filesystem::file_size(run.path() / "replay.html"), 10'000'000);
+  const PageVisit page = visit_replay(run.path(), R"js(
+    for (let i = 0; i < 100 && !replay.screens.has_images; ++i) await new Promise((done) => setTimeout(done, 100));
+    const {surfaces, screens} = replay, box = (name) => replay.surfaces.fixed.children.map((mesh) => {
+      mesh.geometry.computeBoundingBox();
+      return mesh.geometry.boundingBox[name];
+    });
+    const low = Math.min(...box('min').map(({x}) => x)), high = Math.max(...box('max').map(({x}) => x));
+    const kinds = [...document.getElementById('camera').options].map((option) => option.value);
+    return {textures: surfaces.textures, low, high, shown: surfaces.fixed.visible, images: screens.has_images, screens: screens.group.children.length, kinds,
+            plots: document.querySelectorAll('#plots .uplot').length};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.requests, IsEmpty());
+  EXPECT_EQ(page.value.at("textures"), record.scene->textures.size());
+  Eigen::AlignedBox3f box;
+  for (const scenes::Vertex& vertex : record.scene->meshes.front().vertices) box.extend(vertex.p_W);
+  EXPECT_NEAR(page.value.at("low").get<float>(), box.min().x(), 0.02f);
+  EXPECT_NEAR(page.value.at("high").get<float>(), box.max().x(), 0.02f);
+  EXPECT_TRUE(page.value.at("shown").get<bool>());
+  EXPECT_TRUE(page.value.at("images").get<bool>());
+  EXPECT_EQ(page.value.at("screens"), record.scenario.rig.cameras.size());
+  EXPECT_EQ(page.value.at("kinds").size(), 3 + record.scenario.rig.cameras.size());  // orbit, chase, plan
+  EXPECT_GE(page.value.at("plots").get<int>(), 3);
+}
+
+TEST(ReplayInBrowser, ShowsTheMapAndThePathOfTheModuleAtEachTime) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.map.points = {{{40, 10, -20}, Eigen::Matrix3d::Identity(), true}};
+  flight.map.course_NE = {{0, 0}, {100, 0}};
+  flight.map.paths = {{2.0, {{30, 20}, {100, 0}}}, {6.0, {{30, 20}}}};
+  write_result_files(run.path(), {.scenario = "map", .scenario_yaml = run.yaml()}, flight);
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit_replay(run.path(), R"js(
+    const drawn = () => replay.map.paths.map(({drawn}) => drawn?.visible ?? null);
+    return [1, 3, 7].map((t) => { replay.setTime(t); return drawn(); });)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse("[[false, null], [true, null], [false, null]]"));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "sim/pages/replay.h"
 #include "sim/pages/report.h"
 
 #include <gmock/gmock.h>

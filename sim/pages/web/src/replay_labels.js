@@ -1,7 +1,17 @@
 // Name labels in the scene, and a mark at the collision or the closest approach.
 import * as THREE from 'three';
 
-const MOST_LABELS = 8, FARTHEST_M = 30, ABOVE_FLIGHT_M = 2;
+const MOST_LABELS = 8, FARTHEST_M = 40, ABOVE_FLIGHT_M = 2;
+const HEIGHT = 0.026;  // of a label, as a share of the view
+
+const sprites = [];
+let scaled = null;
+/** Gives all labels the same size on the screen. @param view_m  height of the view at the distance 1 m, or of a plan. */
+export function scaleLabels(view_m) {
+  if (scaled === `${view_m} ${sprites.length}`) return;
+  scaled = `${view_m} ${sprites.length}`;
+  for (const {sprite, width} of sprites) sprite.scale.set(HEIGHT * view_m * width, HEIGHT * view_m, 1);
+}
 
 /** Returns a text that faces the camera and has a constant size on the screen. */
 function label(text) {
@@ -14,33 +24,39 @@ function label(text) {
   c.fillStyle = '#fff';
   c.textBaseline = 'middle';
   c.fillText(text, 12, 23);
-  const look = new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), sizeAttenuation: false, depthTest: false});
-  const sprite = new THREE.Sprite(look), height = 0.028;
+  const look = new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), sizeAttenuation: false, depthTest: false, fog: false});
+  const sprite = new THREE.Sprite(look);
   sprite.center.set(0.5, 0);
-  sprite.scale.set(height * canvas.width / canvas.height, height, 1);
+  sprites.push({sprite, width: canvas.width / canvas.height});
   sprite.renderOrder = 1;
   return sprite;
 }
 
-/** Returns the names of the solids closest to the path in order of distance, each name once. */
-export function nearestNames(labels, {north_m, east_m}) {
-  const away = ([, north, east]) => Math.min(...north_m.map((n, i) => Math.hypot(n - north, east_m[i] - east)));
-  const near = labels.map((row) => ({row, away_m: away(row)})).filter(({away_m}) => away_m < FARTHEST_M);
-  const seen = new Set();
-  return near.sort((a, b) => a.away_m - b.away_m).map(({row}) => row)
-    .filter(([name]) => !seen.has(name) && seen.add(name)).slice(0, MOST_LABELS);
-}
-
-/** Returns labels as children of a group in W: above low solids, and at flight altitude for high ones. */
-export function nameTags(labels, path) {
-  const group = new THREE.Group(), highest = Math.min(...path.down_m) - ABOVE_FLIGHT_M;
-  for (const [name, north, east, top] of nearestNames(labels, path)) {
-    const tag = group.add(label(name)).children.at(-1);
-    tag.position.set(north, east, Math.max(top, highest));
+/** Names of the obstacles closest to the vehicle, each name once. */
+export class NameTags {
+  /** @param labels  [name, north, east, top]. @param down_m  of the highest point of the flight: high obstacles are named there. */
+  constructor(labels, highest_m) {
+    Object.assign(this, {group: new THREE.Group(), labels, tags: new Map(), highest: highest_m - ABOVE_FLIGHT_M, shown: ''});
   }
-  return group;
+  /** Shows the names around a place. */
+  update(north, east) {
+    const near = this.labels.map((row) => ({row, away_m: Math.hypot(row[1] - north, row[2] - east)})).filter(({away_m}) => away_m < FARTHEST_M);
+    const seen = new Set(), rows = near.sort((a, b) => a.away_m - b.away_m).map(({row}) => row)
+      .filter(([name]) => !seen.has(name) && seen.add(name)).slice(0, MOST_LABELS);
+    for (const tag of this.tags.values()) tag.visible = false;
+    for (const row of rows) {
+      if (!this.tags.has(row)) {
+        const tag = this.group.add(label(row[0])).children.at(-1);
+        tag.position.set(row[1], row[2], Math.max(row[3], this.highest));
+        this.tags.set(row, tag);
+      }
+      this.tags.get(row).visible = true;
+    }
+    return rows;
+  }
 }
 
+/** Returns the name of a moving obstacle, above it in M. */
 export function moverTag({name, bodies: {boxes, cylinders, spheres}}) {
   const tag = label(name);
   tag.position.set(0, 0, Math.min(0, ...[...boxes, ...cylinders, ...spheres].map((row) => row[2] - row[9])));

@@ -1,8 +1,11 @@
 // Meshes of a scene and a vehicle, as children of a group in W (or M, or B): the numbers of the data are used unchanged.
 import * as THREE from 'three';
+import {Line2} from 'three/examples/jsm/lines/Line2.js';
+import {LineGeometry} from 'three/examples/jsm/lines/LineGeometry.js';
+import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
 
-const colors = {solid: 0x9aa5b4, ground: 0x7f8f76, mover: 0xd08a2e, hull: 0x1f3a5f, goal: 0x009e73, path: 0x0072b2, nose: 0xd55e00};
-const material = (color, more = {}) => new THREE.MeshLambertMaterial({color, ...more});
+const colors = {solid: 0x9aa5b4, ground: 0x7f8f76, mover: 0xd08a2e, hull: 0x1f3a5f, goal: 0x009e73, path: 0x0a84d8, nose: 0xd55e00};
+const material = (color, more = {}) => new THREE.MeshLambertMaterial({color, fog: false, ...more});
 
 /** Returns many bodies of one shape as one mesh. @param rows  position, quaternion (x, y, z, w), half extents. */
 function copies(geometry, rows, look, color) {
@@ -62,10 +65,33 @@ export function goalMark([north, east, down, radius]) {
   return group;
 }
 
-export function pathLine({north_m, east_m, down_m}) {
-  const points = north_m.flatMap((north, i) => [north, east_m[i], down_m[i]]);
-  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-  return new THREE.Line(geometry, new THREE.LineBasicMaterial({color: colors.path}));
+/** The path of the flight, which may grow. */
+export class PathLine {
+  constructor() {
+    this.line = new Line2(new LineGeometry(), new LineMaterial({color: colors.path, linewidth: 3, fog: false}));
+    this.line.frustumCulled = false;
+  }
+  set({north_m, east_m, down_m}) {
+    this.line.visible = north_m.length > 1;
+    if (!this.line.visible) return;
+    this.line.geometry.dispose();
+    const points = new Float32Array(3 * north_m.length);
+    north_m.forEach((north, i) => points.set([north, east_m[i], down_m[i]], 3 * i));
+    this.line.geometry = new LineGeometry().setPositions(points);
+  }
+}
+
+/** Returns a soft dark disc below the vehicle, which shows its place above the ground. */
+export function groundMark(reach) {
+  const canvas = document.createElement('canvas'), c = canvas.getContext('2d');
+  canvas.width = canvas.height = 64;
+  const shade = c.createRadialGradient(32, 32, 4, 32, 32, 32);
+  shade.addColorStop(0, 'rgba(0, 0, 0, 0.55)');
+  shade.addColorStop(1, 'rgba(0, 0, 0, 0)');
+  c.fillStyle = shade;
+  c.fillRect(0, 0, 64, 64);
+  const look = new THREE.MeshBasicMaterial({map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false, side: THREE.DoubleSide, fog: false});
+  return new THREE.Mesh(new THREE.PlaneGeometry(2.4 * reach, 2.4 * reach), look);
 }
 
 /** Returns the collision geometry of the hull, half transparent, and a forward arrow. */
@@ -74,8 +100,10 @@ export function vehicle(hull) {
   const reach = Math.max(0.3, ...[...hull.boxes, ...hull.cylinders].map(([x, y, z, qx, qy, qz, qw, a]) => x + a));
   const nose = new THREE.Mesh(new THREE.ConeGeometry(0.12 * reach, 0.4 * reach, 12).rotateZ(-Math.PI / 2), material(colors.nose));
   nose.position.set(1.1 * reach, 0, Math.min(...[...hull.boxes, ...hull.cylinders].map(([x, y, z]) => z)));  // above all rotors
-  group.add(body, nose);
-  return {group, reach};
+  const shown = new THREE.Group();
+  shown.add(body, nose);
+  group.add(shown);
+  return {group, body: shown, reach};
 }
 
 export function moverMesh(mover) { return bodies(mover.bodies, colors.mover); }
@@ -105,5 +133,5 @@ export function solidsMesh(scene, path) {
   for (const [low, high] of ceilings) {
     group.add(new THREE.Box3Helper(new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high)), colors.solid));
   }
-  return {group, ceilings: ceilings.length};
+  return {group, ceilings};
 }
