@@ -60,8 +60,7 @@ void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
   command->add_option("--out", run.out, "output folder; default out/<name>-seed<seed>")->type_name("DIR");
   command->add_flag("--no-video", run.no_video, "do not write a video");
   command->add_flag("--no-report", run.no_report, "do not write report.html; `hedgehop report DIR` writes it later");
-  command->add_flag("--view", run.view,
-                    "show the flight in a browser while it is flown; prints the address, on this machine only");
+  command->add_flag("--view", run.view, "show the flight in a browser while it is flown; prints the address");
   command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
   command->add_option("--keep-if-failed", run.keep_if_failed)->delimiter(',')->group("");  // hidden: for batch
   command->add_flag("--json", run.json, "print result.json instead of the verdict");

@@ -71,8 +71,8 @@ void LiveView::show(Simulation& simulation, const std::string& status, const cv:
         const double scale = static_cast<double>(kModuleWidthPx) / module_image.cols;
         cv::resize(module_image, smaller, {}, scale, scale, cv::INTER_AREA);
       }
-      server_.send_latest(
-          "images", event_json({{"sheet", jpeg_base64(camera_sheet(simulation, nullptr))}, {"film", jpeg_base64(smaller)}}));
+      server_.send_latest("images", event_json({{"sheet", jpeg_base64(camera_sheet(simulation, nullptr))},
+                                                {"film", jpeg_base64(smaller)}}));
     }
   }
   server_.wait_while_paused();

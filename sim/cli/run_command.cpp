@@ -76,7 +76,7 @@ void die_with(pid_t campaign) {
   if (::getppid() != campaign) throw std::runtime_error("the campaign that started this worker is gone");
 }
 
-/// Flies to the end. The view observes every decision and changes nothing.
+/// Flies to the end. The view observes every decision and cannot change the flight.
 Flight fly(Simulation& simulation, const RunWatcher& watcher, LiveView* view) {
   if (view == nullptr) return simulation.run();
   do {

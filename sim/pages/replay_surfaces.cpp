@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMaxTriangles = 100'000;         // about 3 MB in base64
-constexpr size_t kMaxTextureBytes = 2'000'000;    // of all textures
+constexpr size_t kMaxTriangles = 100'000;                // about 3 MB in base64
+constexpr size_t kMaxTextureBytes = 2'000'000;           // of all textures
 constexpr int kMinTexturePx = 64, kTextureQuality = 82;  // of the JPEG
 
 template <class Value>

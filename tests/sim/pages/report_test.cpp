@@ -1,5 +1,5 @@
-#include "sim/pages/replay.h"
 #include "sim/pages/report.h"
+#include "sim/pages/replay.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
