@@ -11,6 +11,7 @@
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
 #include "sim/flight/words.h"
+#include "sim/scenario/validate.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -250,6 +251,19 @@ std::optional<double> figure_of(const FlightResult& result, std::string_view col
   const double value = figure->value(result);
   const bool clearance = column.ends_with("clearance_m");
   return std::isfinite(value) || (clearance && !std::isnan(value)) ? std::optional(value) : std::nullopt;
+}
+
+std::string column_fault(const std::string& column, const Scenario& scenario) {
+  if (column.starts_with(fmt::format("metric.{}", kModulePrefix)) || column.starts_with("time.")) return "";
+  std::vector<std::string> names;
+  for (const Figure& figure : kFigures) names.emplace_back(figure.name);
+  for (const std::string_view metric : kJudgesMetrics) names.push_back(fmt::format("metric.{}", metric));
+  for (const std::string& check : check_names(scenario)) names.push_back("check." + check);
+  if (std::ranges::find(names, column) != names.end()) return "";
+  for (const std::string& name : names) {
+    if (name.ends_with("." + column)) return fmt::format("no column '{}'; did you mean '{}'?", column, name);
+  }
+  return fmt::format("no column '{}'{}", column, suggestion(column, {names.begin(), names.end()}));
 }
 
 bool is_campaign(const std::filesystem::path& folder) {

@@ -21,6 +21,10 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<T
 /// infinite if no obstacle was within the search range.
 std::optional<double> figure_of(const FlightResult& result, std::string_view column);
 
+/// Returns why a table of flights of the scenario lacks a column of numbers, with the nearest names; "" if the column
+/// is possible. The metrics of a module are unknown before the flight, so their names are not judged.
+std::string column_fault(const std::string& column, const Scenario& scenario);
+
 /// The flights of a campaign's folder.
 struct FlightList {
   bool is_sweep = false;              ///< or a search: its points have columns of their own

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/libm/random.h"
 
@@ -13,7 +14,29 @@ double log_choose(int64_t n, int64_t k) {
   return log_factorial(n) - log_factorial(k) - log_factorial(n - k);
 }
 
+/// Returns the probability that Student's |t| is at most `t`. [AbramowitzStegun1964] eq. (26.7.3), (26.7.4).
+double student_within(double t, int64_t freedom) {
+  const double theta = std::atan(t / std::sqrt(static_cast<double>(freedom)));
+  const double sine = std::sin(theta), square = std::cos(theta) * std::cos(theta);
+  const bool odd = freedom % 2 == 1;
+  double term = odd ? std::cos(theta) : 1.0, sum = freedom == 1 ? 0.0 : term;
+  for (int64_t k = odd ? 3 : 2; k <= freedom - 2; k += 2) {
+    term *= static_cast<double>(k - 1) / static_cast<double>(k) * square;
+    sum += term;
+  }
+  return odd ? 2.0 / std::numbers::pi * (theta + sine * sum) : sine * sum;
+}
+
 }  // namespace
+
+double student_factor(int64_t samples, double confidence) {
+  double low = 0.0, high = 1e6;
+  for (int step = 0; step < 100; ++step) {
+    const double middle = 0.5 * (low + high);
+    (student_within(middle, samples - 1) < confidence ? low : high) = middle;
+  }
+  return high;
+}
 
 Interval wilson_interval(Count count, double confidence) {
   if (count.trials == 0) return {0.0, 1.0};

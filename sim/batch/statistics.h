@@ -23,6 +23,11 @@ inline constexpr double kTableConfidence = 0.95;
 /// Source: [Wilson1927] p. 212. Its properties: [Newcombe1998a] table 1, method 3.
 Interval wilson_interval(Count count, double confidence);
 
+/// Returns the half width of the two-sided interval of a mean, in standard errors, from Student's distribution.
+/// @param samples  >= 2. @param confidence  in (0, 1).
+/// Source: [AbramowitzStegun1964] eq. (26.7.3) and (26.7.4), solved by bisection.
+double student_factor(int64_t samples, double confidence);
+
 /// Returns the two-sided interval of the difference of two proportions, first minus second, from their Wilson
 /// intervals.
 /// @param confidence  in (0, 1). Both counts must have at least one trial.

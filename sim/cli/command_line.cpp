@@ -136,37 +136,25 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 }
 
-void declare_report(CLI::App& app, std::function<int()>& chosen, ReportOptions& report) {
-  CLI::App* const command = app.add_subcommand("report", "write report.html of a run, a batch or a sweep");
-  command->add_option("DIR", report.folder, "output folder of the run, batch or sweep")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  command->add_option("--against", report.against, "for a batch or sweep: list the changes since this earlier one")
-      ->check(CLI::ExistingDirectory)
-      ->type_name("DIR");
-  command->add_flag("--replay", report.replay, "for a run: also write replay.html, the flight in 3-D");
-  command
-      ->add_option("--film-strips", report.film_strips,
-                   "for a batch or sweep: number of worst flights to re-simulate up to their closest approach, for "
-                   "their camera images")
-      ->transform(whole_number())
-      ->check(CLI::Range(0, 50))
-      ->type_name("N");
-  command->callback([&] { chosen = [&report] { return cli::report(report); }; });
-}
-
 void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topic) {
   CLI::App* const command = app.add_subcommand(
-      "list", "list the keys of scenarios, and the valid modules, vehicles, scenes, cameras and checks");
-  command->add_option("TOPIC", topic, "modules, vehicles, scenes, cameras, checks; scenario: all other keys")
+      "list",
+      "list the keys of scenarios, sweeps and campaigns, and the valid modules, vehicles, scenes, cameras and checks");
+  command
+      ->add_option("TOPIC", topic,
+                   "modules, vehicles, scenes, cameras, checks; scenario: all other keys; sweep, campaign: the keys of "
+                   "these files")
       ->required()
-      ->check(CLI::IsMember(document_topics()));
+      ->check(CLI::IsMember(list_topics()));
   command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 }
 
-void declare_schema(CLI::App& app, std::function<int()>& chosen) {
-  CLI::App* const command = app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
-  command->callback([&] { chosen = [] { return cli::schema(); }; });
+void declare_schema(CLI::App& app, std::function<int()>& chosen, std::string& kind) {
+  CLI::App* const command =
+      app.add_subcommand("schema", "print the JSON Schema of scenario, sweep or campaign files, for editors");
+  command->add_option("KIND", kind, "scenario (default), sweep or campaign")
+      ->check(CLI::IsMember({"scenario", "sweep", "campaign"}));
+  command->callback([&] { chosen = [&kind] { return cli::schema(kind); }; });
 }
 
 void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& format) {
@@ -210,18 +198,17 @@ int parse_and_run(int argc, char** argv) {
   std::string topic;
   ExportOptions data;
   DatasetOptions images{.arguments = {argv + 1, argv + argc}};
-  ReportOptions report;
-  std::string format;
+  std::string format, kind;
   declare_run(app, chosen, run);
   declare_render(app, chosen, render);
   declare_calibration(app, chosen, calibration);
   declare_campaigns(app, chosen);
   declare_export(app, chosen, data);
   declare_dataset(app, chosen, images);
-  declare_report(app, chosen, report);
+  declare_reports(app, chosen);
   declare_list(app, chosen, topic);
   declare_vehicle_commands(app, chosen, vehicles);
-  declare_schema(app, chosen);
+  declare_schema(app, chosen, kind);
   declare_manual(app, chosen, format);
   if (const std::string fault = argc > 1 ? unknown_command(app, argv[1]) : ""; !fault.empty()) {
     notice(one_line(fault) + "\n");

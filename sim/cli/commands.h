@@ -61,10 +61,12 @@ struct CalibrationOptions {
 /// Writes the camera calibration of the rig for other programs.
 int calibration(const CalibrationOptions& options);
 
-/// @param topic  "modules", "vehicles", "scenes", "cameras" or "checks".
+/// Topics of `hedgehop list`: those of a scenario (document_topics()), "sweep" and "campaign".
+std::vector<std::string> list_topics();
 int list(const std::string& topic);
 
-int schema();
+/// @param kind  of the file: "scenario", "sweep" or "campaign".
+int schema(const std::string& kind);
 
 struct BatchOptions {
   std::vector<std::filesystem::path> inputs;  ///< scenarios, campaigns, folders
@@ -227,10 +229,16 @@ void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions
 
 struct ReportOptions {
   std::filesystem::path folder;   ///< of a run, a batch or a sweep
-  std::filesystem::path against;  ///< folder of an earlier batch or sweep; empty: no comparison
+  std::filesystem::path against;  ///< folder of another run, or of an earlier batch or sweep; empty: no comparison
   bool replay = false;            ///< of a run: also write replay.html
+  bool figures = false;           ///< of a sweep: write tables and figures for a paper
+  std::string column;             ///< of the figures; empty: the default of the page
   size_t film_strips = 0;         ///< of a batch or sweep: worst flights to re-simulate for a film strip
 };
+void declare_reports(CLI::App& app, std::function<int()>& chosen);
+/// Writes index.html, a table of all results in a folder tree.
+int runs(const std::filesystem::path& folder);
+
 /// Writes the folder's report.html.
 int report(const ReportOptions& options);
 

@@ -7,18 +7,23 @@
 
 #include "scenes/generators.h"
 #include "scenes/mesh/mesh_import.h"
+#include "sim/batch/campaign_file.h"
 #include "sim/batch/flight_table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
+#include "sim/config/outline_texts.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
 #include "sim/pages/replay.h"
 #include "sim/pages/report.h"
+#include "sim/pages/runs_page.h"
+#include "sim/pages/sweep_analysis.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sweep/sweep_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -59,13 +64,33 @@ void print_import_limits(const scenes::SceneConfig& config) {
   std::visit(print, config);
 }
 
+std::vector<std::string> list_topics() {
+  std::vector<std::string> topics = document_topics();
+  topics.insert(topics.end(), {"sweep", "campaign"});
+  return topics;
+}
+
 int list(const std::string& topic) {
-  fmt::print("{}{}", document(topic), topic == "vehicles" ? vehicle_files_text() : "");
+  if (topic == "sweep") {
+    fmt::print("{}\ndesign, one of:\n\n{}", document_fields(outline_fields(SweepConfig{}), 0),
+               describe_choices<SweepDesign>());
+  } else if (topic == "campaign") {
+    fmt::print("{}\nchecks, each one of:\n\n{}", document_fields(outline_fields(CampaignConfig{}), 0),
+               describe_choices<CampaignCheck>());
+  } else {
+    fmt::print("{}{}", document(topic), topic == "vehicles" ? vehicle_files_text() : "");
+  }
   return 0;
 }
 
-int schema() {
-  fmt::print("{}\n", json_schema());
+int schema(const std::string& kind) {
+  if (kind == "sweep") {
+    fmt::print("{}\n", schema_text(outline_fields(SweepConfig{}), "Hedgehop sweep"));
+  } else if (kind == "campaign") {
+    fmt::print("{}\n", schema_text(outline_fields(CampaignConfig{}), "Hedgehop campaign"));
+  } else {
+    fmt::print("{}\n", json_schema());
+  }
   return 0;
 }
 
@@ -92,26 +117,40 @@ int calibration(const CalibrationOptions& options) {
   return 0;
 }
 
+int runs(const std::filesystem::path& folder) {
+  const size_t results = write_runs_page(folder);
+  fmt::print("{} results; written: {}\n", results, (folder / "index.html").string());
+  return 0;
+}
+
 int report(const ReportOptions& options) {
   const std::string folder = options.folder.string();
   const auto written = [&](const char* name) { fmt::print("written: {}\n", (options.folder / name).string()); };
+  if (!options.figures && !options.column.empty()) throw InputError("--column is for --figures");
   if (is_campaign(options.folder)) {
     if (options.replay) throw InputError(folder + ": --replay shows one flight; name the folder of one");
     if (options.film_strips > 0) film_worst(options.folder, options.film_strips);
     write_campaign_report(options.folder, options.against.empty() ? std::nullopt : std::optional(options.against));
     written("report.html");
+    if (!options.figures) return 0;
+    for (const std::string& file : write_sweep_figures(options.folder, options.folder / "figures", options.column)) {
+      written(("figures/" + file).c_str());
+    }
     return 0;
   }
   if (!std::filesystem::exists(options.folder / "result.json")) {
     throw InputError(folder + ": no result.json, batch.csv or sweep.csv: not the folder of a run, batch or sweep");
   }
+  if (options.figures) throw InputError(folder + ": --figures is for sweeps, and this is one run");
   if (options.film_strips > 0)
     throw InputError(folder + ": --film-strips is for batches or sweeps, and this is one run");
-  if (!options.against.empty())
-    throw InputError(folder + ": --against compares batches or sweeps, and this is one run");
+  if (!options.against.empty() && !std::filesystem::exists(options.against / "result.json")) {
+    throw InputError(fmt::format("{}: no result.json: a run is compared with another run", options.against.string()));
+  }
   const RunRecord run = read_run(options.folder);
   if (options.replay) write_replay(options.folder, run);
-  write_report(options.folder, run);  // links the replay
+  // It links the replay.
+  write_report(options.folder, run, options.against.empty() ? std::nullopt : std::optional(options.against));
   written("report.html");
   if (options.replay) written("replay.html");
   return 0;

@@ -17,10 +17,15 @@
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
 #include "sim/sweep/optimize.h"
+#include "sim/sweep/plan.h"
 #include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim::cli {
 namespace {
+
+constexpr size_t kChunkFlights = 2'000;     // whose orders are in memory at a time
+constexpr size_t kMaxPageFlights = 50'000;  // a page with more could not be opened
+constexpr size_t kManyPoints = 5'000;       // their check takes more than ten seconds
 
 struct SweepRun {
   const SweepOptions& options;
@@ -29,22 +34,77 @@ struct SweepRun {
   std::string name = "sweep";  ///< of the tables, without their ending
 };
 
-EveryWrite write_tables(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
+/// The flights that have ended: rows of the table, and records for the summary.
+struct FlownSweep {
+  Table table;
+  std::vector<FlightRecord> records;
+
+  /// @param whole  whether to store whole records, as the JUnit file needs them.
+  void add(const SweepConfig& sweep, const SweepOrders& orders, std::vector<FlightRecord> more, bool whole) {
+    Table rows = sweep_table(sweep, orders, more);
+    if (table.names().empty()) {
+      table = std::move(rows);
+    } else {
+      table.append(std::move(rows));
+    }
+    for (FlightRecord& record : more) {
+      if (!whole) make_small(record);
+      records.push_back(std::move(record));
+    }
+  }
+
+ private:
+  static void make_small(FlightRecord& record) {
+    record.order.scenario_yaml.clear();
+    record.order.inputs.clear();
+    if (!record.result) return;
+    record.result->flight.metrics = {};
+    record.result->info.inputs.clear();
+  }
+};
+
+/// Writes the design of the sweep, which the page needs in addition to the table.
+void write_design(const SweepRun& run, const std::vector<std::string>& design_points, size_t block) {
+  nlohmann::ordered_json json{{"design", ""}, {"parameters", nlohmann::ordered_json::array()}};
+  std::visit([&]<class Design>(const Design&) { json["design"] = Design::kName; }, run.sweep.design);
+  for (const SweepParameter& p : run.sweep.parameters) {
+    json["parameters"].push_back({{"path", p.path}, {"log", p.scale == SweepParameter::Scale::log}});
+  }
+  if (const auto* optimize = std::get_if<OptimizeDesign>(&run.sweep.design)) {
+    json["minimize"] = optimize->minimize;
+    json["failure_cost"] = optimize->failure_cost;
+  }
+  if (block > 0) json["block"] = block;
+  if (block > 0) json["points"] = design_points;
+  write_file_whole(run.out / "sweep.json", json.dump() + "\n");
+}
+
+EveryWrite write_tables(const SweepRun& run, const FlownSweep& flown, const std::vector<std::string>& design_points,
+                        size_t block) {
   EveryWrite files;
-  const Table table = sweep_table(run.sweep, orders, records);
   files.attempt([&] {
     std::filesystem::create_directories(run.out);
-    write_file_whole(run.out / (run.name + ".csv"), table.csv());
+    write_file_whole(run.out / (run.name + ".csv"), flown.table.csv());
   });
-  files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), table); });
+  files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), flown.table); });
+  files.attempt([&] { write_design(run, design_points, block); });
   if (run.options.junit.empty()) return files;
-  files.attempt([&] { write_junit(run.options.junit, junit_text(records, {}, junit_origin())); });
+  files.attempt([&] { write_junit(run.options.junit, junit_text(flown.records, {}, junit_origin())); });
   return files;
 }
 
+void write_page(const SweepRun& run, size_t flights) {
+  if (flights > kMaxPageFlights) {
+    notice(fmt::format("report.html is not written: {} flights; a page holds up to {}\n", flights, kMaxPageFlights));
+    return;
+  }
+  write_campaign_page(run.out);
+}
+
 /// Prints the counts and returns the exit status.
-int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<FlightRecord>& records) {
-  const EveryWrite files = write_tables(run, orders, records);
+int conclude(const SweepRun& run, const SweepPlan& plan, const FlownSweep& flown) {
+  const std::vector<FlightRecord>& records = flown.records;
+  const EveryWrite files = write_tables(run, flown, plan.numbers_of_design(), plan.block());
   const auto of_status = [&](FlightRecord::Status status) {
     return std::ranges::count(records, status, &FlightRecord::status);
   };
@@ -58,7 +118,7 @@ int conclude(const SweepRun& run, const SweepOrders& orders, const std::vector<F
              of_verdict(Verdict::passed), of_verdict(Verdict::failed) + of_verdict(Verdict::fault), no_checks,
              of_status(FlightRecord::Status::failed), of_status(FlightRecord::Status::missing));
   if (files.well()) fmt::print("written: {}\n", (run.out / (run.name + ".csv")).string());
-  if (files.well() && run.options.shard.empty()) write_campaign_page(run.out);
+  if (files.well() && run.options.shard.empty()) write_page(run, records.size());
   print_failed(records);
   files.raise();
   return std::ranges::all_of(records, [](const FlightRecord& r) { return holds(verdict_of(r)); }) ? 0 : kFails;
@@ -72,13 +132,44 @@ FlyOptions fly_options(const SweepRun& run) {
           .limit_s = run.options.limit_s};
 }
 
-int fly_all(const SweepRun& run, const SweepOrders& orders) {
+/// Calls `each` with the orders of the sweep or shard, a limited number at a time.
+template <class Each>
+void for_each_chunk(const SweepPlan& plan, Shard shard, Each each) {
+  const size_t points = std::max<size_t>(1, kChunkFlights / plan.seeds());
+  for (size_t first = 0; first < plan.points(); first += points) {
+    if (const SweepOrders orders = plan.orders(first, points, shard); !orders.orders.empty()) each(orders);
+  }
+}
+
+int fly_all(const SweepRun& run, const SweepPlan& plan, Shard shard) {
   Interruption interruption;
-  CampaignProgress progress(orders.orders.size());
-  const auto records = fly_shown(orders.orders, fly_options(run), interruption, progress);
+  CampaignProgress progress((plan.flights() + shard.of - shard.index) / shard.of);
+  const FlyOptions options = fly_options(run);
+  FlownSweep flown;
+  for_each_chunk(plan, shard, [&](const SweepOrders& orders) {
+    auto records = interruption.signal() != 0 ? gather(orders.orders, {run.out}, options.other_builds)
+                                              : fly_shown(orders.orders, options, interruption, progress);
+    flown.add(run.sweep, orders, std::move(records), !run.options.junit.empty());
+  });
   progress.close();
-  const int status = conclude(run, orders, records);
+  const int status = conclude(run, plan, flown);
   return interruption.signal() != 0 ? kSignalled + interruption.signal() : status;
+}
+
+/// Writes the tables of the results that exist, or counts the flights without one.
+int gather_all(const SweepRun& run, const SweepPlan& plan, Shard shard) {
+  std::vector<std::filesystem::path> folders{run.out};
+  folders.insert(folders.end(), run.options.merge_from.begin(), run.options.merge_from.end());
+  FlownSweep flown;
+  int64_t missing = 0;
+  for_each_chunk(plan, shard, [&](const SweepOrders& orders) {
+    std::vector<FlightRecord> records = gather(orders.orders, folders, run.options.reuse_other_builds);
+    missing += std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status);
+    if (run.options.merge) flown.add(run.sweep, orders, std::move(records), !run.options.junit.empty());
+  });
+  if (run.options.merge) return conclude(run, plan, flown);
+  fmt::print("{}\n", missing);
+  return 0;
 }
 
 int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
@@ -93,7 +184,9 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   };
   const Optimum best = optimize(run.sweep, fly);
   progress.close();
-  const EveryWrite files = write_tables(run, best.orders, best.records);
+  FlownSweep flown;
+  flown.add(run.sweep, best.orders, best.records, true);
+  const EveryWrite files = write_tables(run, flown, {}, 0);
   if (best.stopped) {
     files.raise();
     return kSignalled + interruption.signal();
@@ -135,13 +228,19 @@ int on_slurm(const SweepRun& run, size_t flights) {
 }
 
 /// Prints the flights that the command would fly.
-int print_plan(const SweepRun& run, const SweepOrders& orders) {
-  const auto records = gather(orders.orders, {run.out}, run.options.reuse_other_builds);
-  const auto missing = std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status);
-  const std::set<size_t> points(orders.points.begin(), orders.points.end());
-  fmt::print("{} flights of {} points; {} have results in {}\n", records.size(), points.size(),
-             static_cast<int64_t>(records.size()) - missing, run.out.string());
-  if (!orders.orders.empty()) fmt::print("first flight: {}\n", rerun_command(orders.orders.front()));
+int print_plan(const SweepRun& run, const SweepPlan& plan, Shard shard) {
+  size_t flights = 0, with_results = 0;
+  std::string first;
+  for_each_chunk(plan, shard, [&](const SweepOrders& orders) {
+    const auto records = gather(orders.orders, {run.out}, run.options.reuse_other_builds);
+    flights += records.size();
+    with_results += records.size() - static_cast<size_t>(std::ranges::count(records, FlightRecord::Status::missing,
+                                                                            &FlightRecord::status));
+    if (first.empty()) first = rerun_command(orders.orders.front());
+  });
+  fmt::print("{} flights of {} points; {} have results in {}\n", flights, plan.points(), with_results,
+             run.out.string());
+  if (!first.empty()) fmt::print("first flight: {}\n", first);
   return 0;
 }
 
@@ -162,22 +261,19 @@ int plan_and_fly_sweep(const SweepOptions& options) {
     }
     return fly_optimizer(run, *design);
   }
-  SweepOrders orders = sweep_orders(run.sweep);
-  if (options.on == "slurm") return on_slurm(run, orders.orders.size());
+  if (const size_t points = count_points(run.sweep); points > kManyPoints) {
+    notice(fmt::format("checking {} points before the flights\n", points));
+  }
+  const SweepPlan plan(run.sweep);
+  for (const std::string& line : plan.notices()) notice(line + "\n");
+  if (options.on == "slurm") return on_slurm(run, plan.flights());
+  Shard shard;
   if (!options.shard.empty()) {
-    const Shard shard = parse_shard(options.shard);
-    orders = part_of(orders, shard);
+    shard = parse_shard(options.shard);
     run.name = fmt::format("shard-{}-of-{}", shard.index, shard.of);
   }
-  if (options.merge || options.missing) {
-    std::vector<std::filesystem::path> folders{run.out};
-    folders.insert(folders.end(), options.merge_from.begin(), options.merge_from.end());
-    const std::vector<FlightRecord> records = gather(orders.orders, folders, run.options.reuse_other_builds);
-    if (options.merge) return conclude(run, orders, records);
-    fmt::print("{}\n", std::ranges::count(records, FlightRecord::Status::missing, &FlightRecord::status));
-    return 0;
-  }
-  return options.dry_run ? print_plan(run, orders) : fly_all(run, orders);
+  if (options.merge || options.missing) return gather_all(run, plan, shard);
+  return options.dry_run ? print_plan(run, plan, shard) : fly_all(run, plan, shard);
 }
 
 }  // namespace

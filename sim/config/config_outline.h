@@ -14,7 +14,7 @@
 namespace hedgehop::sim {
 
 struct ConfigOutline {
-  enum class Kind { number, integer, boolean, text, choice, list, group, variant };
+  enum class Kind { number, integer, boolean, text, choice, any, list, group, variant };
 
   Kind kind = Kind::group;
   std::string key;                   ///< in its group; empty for items

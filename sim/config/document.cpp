@@ -28,6 +28,8 @@ std::string type_words(const ConfigOutline& node) {
       return "text";
     case Kind::choice:
       return fmt::format("{}", fmt::join(node.field.choices, "|"));
+    case Kind::any:
+      return "any value";
     case Kind::group:
       return "map";
     case Kind::variant: {

@@ -13,6 +13,9 @@ std::string yaml_text(const std::vector<ConfigOutline>& fields);
 /// Returns a text as a YAML scalar on one line, quoted if necessary.
 std::string yaml_quoted(const std::string& text);
 
+/// Returns a value as written, as YAML on one line.
+std::string flow_text(const Node& node);
+
 /// Returns the JSON Schema (draft 2020-12) of a group. A map with `use: file` may omit the keys of that file.
 std::string schema_text(const std::vector<ConfigOutline>& fields, const std::string& title);
 

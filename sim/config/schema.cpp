@@ -198,6 +198,8 @@ Json scalar_schema(const ConfigOutline& node) {
       return {{"type", "boolean"}};
     case Kind::choice:
       return {{"enum", node.field.choices}};
+    case Kind::any:
+      return Json::object();
     default:
       return {{"type", {"string", "number", "boolean"}}};  // a name may look like a number
   }

@@ -12,6 +12,23 @@ std::string scalar(const ConfigOutline& node) {
   return node.kind == ConfigOutline::Kind::text ? yaml_quoted(node.value) : node.value;
 }
 
+std::string always_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
 void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out);
 
 /// Appends the value after "key:": on the same line for scalars and lists of scalars, otherwise on indented lines.
@@ -59,6 +76,26 @@ std::string yaml_text(const std::vector<ConfigOutline>& fields) {
   return out;
 }
 
+std::string flow_text(const Node& node) {
+  std::vector<std::string> parts;
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "null";
+    case Node::Kind::scalar: {
+      constexpr std::string_view kFlowSigns = ",[]{}:#\"'\\\n";
+      const bool plain = !node.quoted && node.text.find_first_of(kFlowSigns) == std::string::npos;
+      return plain ? node.text : node.quoted ? always_quoted(node.text) : yaml_quoted(node.text);
+    }
+    case Node::Kind::list:
+      for (const Node& item : node.items) parts.push_back(flow_text(item));
+      return fmt::format("[{}]", fmt::join(parts, ", "));
+    case Node::Kind::map:
+      for (const Entry& entry : node.entries) parts.push_back(entry.key + ": " + flow_text(entry.value));
+      return fmt::format("{{{}}}", fmt::join(parts, ", "));
+  }
+  return "";
+}
+
 std::string yaml_quoted(const std::string& text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '/' || c == '.'; };
   const bool is_word = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
@@ -66,20 +103,7 @@ std::string yaml_quoted(const std::string& text) {
   static constexpr std::string_view kReserved[] = {"null", "Null", "NULL", "true", "false", "yes", "no", "on", "off"};
   if (is_word && std::find(std::begin(kReserved), std::end(kReserved), text) == std::end(kReserved)) return text;
 
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
+  return always_quoted(text);
 }
 
 }  // namespace hedgehop::sim

@@ -13,6 +13,8 @@
 #include "sim/flight/flight.h"
 #include "sim/libm/random.h"
 #include "sim/sweep/optimize.h"
+#include "sim/sweep/plan.h"
+#include "sim/sweep/sampling.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -106,15 +108,16 @@ class Search {
   /// Adds the orders of a point. If the scenario refuses the point, the orders carry a fault and are not flown.
   void add_point(size_t number, const Coordinates& point, SweepOrders& orders) {
     const std::vector<std::string> values = values_at(point);
+    const std::string label = fmt::format("{:06}", number);
     try {
-      orders.add(search_.sweep, number, values);
+      for (Order& order : point_orders(search_.sweep, values, label)) {
+        orders.add(std::move(order), values, std::to_string(number));
+      }
     } catch (const InputError& error) {
       for (size_t i = 0; i < seeds(); ++i) {
-        Order order{.id = fmt::format("flights/{:06}-{}", number, i), .scenario = search_.sweep.scenario};
+        Order order{.id = fmt::format("flights/{}-{}", label, i), .scenario = search_.sweep.scenario};
         order.fault = error.errors().front();
-        orders.orders.push_back(std::move(order));
-        orders.values.push_back(values);
-        orders.points.push_back(number);
+        orders.add(std::move(order), values, std::to_string(number));
       }
     }
   }
@@ -240,9 +243,10 @@ FalsifyResult falsify(const FalsifySearch& search, const FlyPoint& fly) { return
 Table falsify_table(const FalsifySearch& search, const FalsifyResult& result) {
   std::vector<double> generations, robustness;
   std::vector<std::string> weakest_checks;
+  const size_t seeds = result.trials.empty() ? 1 : result.records.size() / result.trials.size();
   for (size_t i = 0; i < result.records.size(); ++i) {
     const WeakestCheck weakest = weakest_check(result.records[i], search.config.robustness);
-    generations.push_back(static_cast<double>(result.trials[result.orders.points[i]].generation));
+    generations.push_back(static_cast<double>(result.trials[i / seeds].generation));
     weakest_checks.push_back(weakest.name);
     robustness.push_back(weakest.robustness);
   }

@@ -14,6 +14,7 @@
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/leaderboard_page.h"
 #include "sim/pages/report_page.h"
+#include "sim/pages/sweep_data.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -129,6 +130,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["mixture"] = mixture_words(flights.records);
   data["truth_used"] = truth_words(flights.records);
   data["swept"] = swept_columns(flights);
+  data["sweep"] = sweep_data(folder, flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
   data["claims"] = claims_data(folder, flights.records);
   data["controls"] = control_groups(data["leaderboard"]);

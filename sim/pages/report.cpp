@@ -15,6 +15,7 @@
 #include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
 #include "sim/scenario/reference_path.h"
+#include "sim/pages/run_against.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -117,6 +118,17 @@ std::vector<Limit> clearance_limits(const FlightResult& result) {
   return limits;
 }
 
+/// Returns the time plots in the order of their sections.
+std::vector<Panel> all_panels(const Table& trajectory, const Table& decisions, const FlightResult& result) {
+  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result)), sorted;
+  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
+  for (const std::string_view section : kSections) {
+    std::ranges::copy_if(panels, std::back_inserter(sorted),
+                         [&](const Panel& panel) { return panel.section == section; });
+  }
+  return sorted;
+}
+
 /// Larger films are linked, because larger pages take seconds to open.
 constexpr uintmax_t kMaxEmbeddedFilmBytes = 40'000'000;
 
@@ -157,6 +169,19 @@ Json references_json(const std::vector<CheckConfig>& checks) {
     }
   }
   return list;
+}
+
+/// Returns the comparison with the run of another folder.
+Json against_json(const std::filesystem::path& run_folder, const RunRecord& run, const std::filesystem::path& against) {
+  const RunRecord other = read_run(against);
+  Json json = run_against_data(run_folder, run, against, other);
+  json["panels"] = Json::array();
+  constexpr size_t kMaxPoints = 3000;
+  for (const Panel& panel : overlaid_panels(all_panels(run.trajectory, run.decisions, run.result.flight),
+                                            all_panels(other.trajectory, other.decisions, other.result.flight))) {
+    json["panels"].push_back(panel_json(panel, kMaxPoints));
+  }
+  return json;
 }
 
 std::string title(const RunRecord& run) { return run.result.info.scenario; }
@@ -204,11 +229,13 @@ Json report_data(const ReportScenario& scenario, const RunResult& result, const 
   return json;
 }
 
-void write_report(const std::filesystem::path& run_folder, const RunRecord& run) {
+void write_report(const std::filesystem::path& run_folder, const RunRecord& run,
+                  const std::optional<std::filesystem::path>& against) {
   nlohmann::ordered_json data = report_data(describe_scenario(run), run.result, run.trajectory, run.decisions);
   data["map"] = run.map;
   data["references"] = references_json(run.scenario.checks);
   data["has_replay"] = std::filesystem::exists(run_folder / "replay.html");
+  data["against"] = against ? against_json(run_folder, run, *against) : nullptr;
   write_file_whole(run_folder / "report.html", report_page(title(run), text(data), find_film(run_folder)));
 }
 

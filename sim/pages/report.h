@@ -40,6 +40,8 @@ nlohmann::ordered_json panels_data(const FlightResult& result, const Table& traj
 /// folder) if the film is smaller than 40 MB, else it links the film. It links `replay.html` if the folder has one.
 /// Throws PagesAbsent, and std::runtime_error with the file and the cause if the film cannot be read or the page cannot
 /// be written.
-void write_report(const std::filesystem::path& run_folder, const RunRecord& run);
+/// @param against  folder of another run to compare with.
+void write_report(const std::filesystem::path& run_folder, const RunRecord& run,
+                  const std::optional<std::filesystem::path>& against = {});
 
 }  // namespace hedgehop::sim

@@ -132,6 +132,10 @@ std::string campaign_page(std::string_view title, std::string data_json) {
   return page(title, kCampaignBody, std::move(data_json), {kReportStyle, kCampaignStyle}, {kCampaignScripts});
 }
 
+std::string runs_html(std::string_view title, std::string data_json) {
+  return page(title, kRunsBody, std::move(data_json), {kReportStyle, kCampaignStyle}, {kRunsScripts});
+}
+
 std::string reproduction_html(std::string_view title, std::string data_json) {
   return page(title, kReproductionBody, std::move(data_json), {kReportStyle, kCampaignStyle}, {kReproductionScripts});
 }

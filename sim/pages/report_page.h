@@ -42,6 +42,9 @@ std::string replay_page(std::string_view title, std::string data_json);
 /// Plots of the trim of a vehicle over speed. @param title  any text. @param data_json  of trim_data().
 std::string trim_page(std::string_view title, std::string data_json);
 
+/// The index of all results in a folder tree. @param title  any text. @param data_json  of runs_data().
+std::string runs_html(std::string_view title, std::string data_json);
+
 /// The results compared with the papers. @param title  any text. @param data_json  see reproduction_page().
 std::string reproduction_html(std::string_view title, std::string data_json);
 

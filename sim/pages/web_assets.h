@@ -16,6 +16,8 @@ extern const std::string_view kCampaignStyle;  ///< additional CSS
 extern const std::string_view kCampaignScripts;
 extern const std::string_view kReproductionBody;  ///< HTML of the results compared with the papers
 extern const std::string_view kReproductionScripts;
+extern const std::string_view kRunsBody;  ///< HTML of the index of results
+extern const std::string_view kRunsScripts;
 extern const std::string_view kReplayBody;     ///< HTML of the replay
 extern const std::string_view kReplayStyle;    ///< additional CSS
 extern const std::string_view kReplayScripts;  ///< including three.js

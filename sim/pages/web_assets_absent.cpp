@@ -4,7 +4,7 @@
 namespace hedgehop::sim {
 
 const std::string_view kPage, kReportBody, kReportStyle, kReportScripts, kTrimBody, kTrimScripts, kCampaignBody,
-    kCampaignStyle, kCampaignScripts, kReproductionBody, kReproductionScripts, kReplayBody, kReplayStyle,
-    kReplayScripts, kPlotStyle, kPlotScript;
+    kCampaignStyle, kCampaignScripts, kReproductionBody, kReproductionScripts, kRunsBody, kRunsScripts, kReplayBody,
+    kReplayStyle, kReplayScripts, kPlotStyle, kPlotScript;
 
 }  // namespace hedgehop::sim

@@ -74,6 +74,47 @@ void Table::add(Column column) {
   columns_.push_back(std::move(column));
 }
 
+void Table::append(Table more) {
+  const size_t rows = rows_ + more.rows_;
+  const auto as_words = [](Column& column, size_t count) {
+    Table one;
+    one.add(column);
+    column.values = one.columns_.empty() ? std::vector<std::string>(count) : one.words(column.name);
+    column.whole = false;
+  };
+  size_t at = 0;
+  for (Column& column : more.columns_) {
+    auto own = std::ranges::find(columns_, column.name, &Column::name);
+    if (own == columns_.end()) {
+      Column empty{.name = column.name, .values = {}, .unit = column.unit, .kind = column.kind, .whole = column.whole};
+      if (std::holds_alternative<std::vector<double>>(column.values)) {
+        empty.values = std::vector<double>(rows_, NAN);
+      } else {
+        empty.values = std::vector<std::string>(rows_);
+      }
+      names_.insert(names_.begin() + static_cast<std::ptrdiff_t>(at), column.name);
+      own = columns_.insert(columns_.begin() + static_cast<std::ptrdiff_t>(at), std::move(empty));
+    }
+    at = static_cast<size_t>(own - columns_.begin()) + 1;
+    if (own->values.index() != column.values.index()) {
+      as_words(*own, rows_);
+      as_words(column, more.rows_);
+    }
+    own->whole = own->whole && column.whole;
+    std::visit(
+        [&]<class Values>(Values& values) {
+          auto& added = std::get<Values>(column.values);
+          std::move(added.begin(), added.end(), std::back_inserter(values));
+        },
+        own->values);
+  }
+  for (Column& column : columns_) {  // that `more` lacks
+    if (auto* const numbers = std::get_if<std::vector<double>>(&column.values)) numbers->resize(rows, NAN);
+    if (auto* const words = std::get_if<std::vector<std::string>>(&column.values)) words->resize(rows);
+  }
+  rows_ = rows;
+}
+
 bool Table::has(std::string_view name) const { return std::ranges::find(names_, name) != names_.end(); }
 
 void Table::refuse(const std::string& why) const {

@@ -78,6 +78,10 @@ class Table {
   void add(std::string name, std::vector<double> numbers) { add(Column{std::move(name), std::move(numbers)}); }
   void add(std::string name, std::vector<std::string> words) { add(Column{std::move(name), std::move(words)}); }
 
+  /// Adds the rows of another table. Columns are joined by name; a new one follows the column before it in `more`.
+  /// Missing values are empty. Both tables must have columns from add().
+  void append(Table more);
+
   size_t rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
   bool has(std::string_view name) const;

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "sim/config/config_tree.h"
+#include "sim/sweep/design.h"
+#include "sim/sweep/plan.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -38,23 +41,25 @@ struct Search {
   const OptimizeDesign& design;
   const FlyPoint& fly;
   Optimum best{.values = {}, .cost = std::numeric_limits<double>::infinity(), .orders = {}, .records = {}};
-  size_t points = 0;
+  std::map<std::string, double> known;  ///< costs of flown points by number
 
   double cost(const std::vector<double>& coordinates) {
     std::vector<std::string> values;
     for (size_t i = 0; i < coordinates.size(); ++i) {
-      values.push_back(parameter_value(sweep.parameters[i], std::clamp(coordinates[i], 0.0, 1.0)));
+      values.push_back(design_value(sweep.parameters[i], std::clamp(coordinates[i], 0.0, 1.0)));
     }
+    const std::string number = point_number(content_of(sweep, values));
+    if (const auto flown = known.find(number); flown != known.end()) return flown->second;
     SweepOrders point;
-    point.add(sweep, points, values);
+    for (Order& order : point_orders(sweep, values)) point.add(std::move(order), values, number);
     const std::optional<std::vector<FlightRecord>> records = fly(point.orders);
     if (!records) {
       best.stopped = true;
       throw StopMinimizing();
     }
-    best.orders.add(sweep, points++, values);
+    best.orders.append(point);
     best.records.insert(best.records.end(), records->begin(), records->end());
-    const double cost = mean_cost(design, *records);
+    const double cost = known[number] = mean_cost(design, *records);
     if (cost < best.cost) {
       best.cost = cost;
       best.values = values;

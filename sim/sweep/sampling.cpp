@@ -17,10 +17,10 @@ constexpr int kBits = 32;
 struct Dimension {
   int degree;
   uint32_t coefficients;  ///< of the polynomial, without its first and last, as bits
-  std::array<uint32_t, 5> m;
+  std::array<uint32_t, 7> m;
 };
 
-/// Dimensions 2 to 10; the first has no polynomial. [JoeKuo2008] table of direction numbers, file new-joe-kuo-6.21201.
+/// Dimensions 2 to 20; the first has no polynomial. [JoeKuo2008] table of direction numbers, file new-joe-kuo-6.21201.
 constexpr std::array<Dimension, kSobolDimensions - 1> kDimensions{{{1, 0, {1}},
                                                                    {2, 1, {1, 3}},
                                                                    {3, 1, {1, 3, 1}},
@@ -29,7 +29,17 @@ constexpr std::array<Dimension, kSobolDimensions - 1> kDimensions{{{1, 0, {1}},
                                                                    {4, 4, {1, 3, 5, 13}},
                                                                    {5, 2, {1, 1, 5, 5, 17}},
                                                                    {5, 4, {1, 1, 5, 5, 5}},
-                                                                   {5, 7, {1, 1, 7, 11, 19}}}};
+                                                                   {5, 7, {1, 1, 7, 11, 19}},
+                                                                   {5, 11, {1, 1, 5, 1, 1}},
+                                                                   {5, 13, {1, 1, 1, 3, 11}},
+                                                                   {5, 14, {1, 3, 5, 5, 31}},
+                                                                   {6, 1, {1, 3, 3, 9, 7, 49}},
+                                                                   {6, 13, {1, 1, 1, 15, 21, 21}},
+                                                                   {6, 16, {1, 3, 1, 13, 27, 49}},
+                                                                   {6, 19, {1, 1, 1, 15, 7, 5}},
+                                                                   {6, 22, {1, 3, 1, 15, 13, 25}},
+                                                                   {6, 25, {1, 1, 5, 5, 19, 61}},
+                                                                   {7, 1, {1, 3, 7, 11, 23, 15, 103}}}};
 
 /// Direction numbers of one dimension, each a fraction of 2^32. [JoeKuo2008] sec. 2.
 std::array<uint32_t, kBits> directions(size_t dimension) {
@@ -64,7 +74,7 @@ std::vector<size_t> permutation(size_t count, Random& generator) {
 
 std::vector<double> sobol_point(uint32_t index, size_t dimensions) {
   if (dimensions < 1 || dimensions > kSobolDimensions) {
-    throw std::invalid_argument("Sobol's sequence supports 1 to 10 parameters");
+    throw std::invalid_argument("Sobol's sequence supports 1 to 20 coordinates");
   }
   std::vector<double> point;
   for (size_t dimension = 0; dimension < dimensions; ++dimension) {

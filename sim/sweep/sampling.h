@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 using UnitPoints = std::vector<std::vector<double>>;
 
 /// Maximum number of dimensions with direction numbers.
-inline constexpr size_t kSobolDimensions = 10;
+inline constexpr size_t kSobolDimensions = 20;
 
 /// Returns point `index` (from 0, the origin) of Sobol's sequence, each coordinate in [0, 1).
 /// @param dimensions  1..kSobolDimensions; std::invalid_argument otherwise. @param index  below 2^32.

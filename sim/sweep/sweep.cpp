@@ -76,12 +76,10 @@ Shard parse_shard(const std::string& text) {
   return {static_cast<size_t>(*index), static_cast<size_t>(*of)};
 }
 
-void SweepOrders::add(const SweepConfig& sweep, size_t point, const std::vector<std::string>& point_values) {
-  for (Order& order : point_orders(sweep, point, point_values)) {
-    orders.push_back(std::move(order));
-    values.push_back(point_values);
-    points.push_back(point);
-  }
+void SweepOrders::add(Order order, const std::vector<std::string>& point_values, const std::string& point) {
+  orders.push_back(std::move(order));
+  values.push_back(point_values);
+  points.push_back(point);
 }
 
 void SweepOrders::append(const SweepOrders& more) {
@@ -90,36 +88,10 @@ void SweepOrders::append(const SweepOrders& more) {
   points.insert(points.end(), more.points.begin(), more.points.end());
 }
 
-SweepOrders sweep_orders(const SweepConfig& sweep) {
-  SweepOrders all;
-  std::vector<std::string> faults;
-  const auto points = design_points(sweep);
-  for (size_t point = 0; point < points.size(); ++point) {
-    try {
-      all.add(sweep, point, points[point]);
-    } catch (const InputError& error) {
-      for (const std::string& fault : error.errors()) faults.push_back(fmt::format("point {}: {}", point, fault));
-    }
-  }
-  if (!faults.empty()) throw InputError(faults);
-  return all;
-}
-
-SweepOrders part_of(const SweepOrders& all, Shard shard) {
-  SweepOrders part;
-  for (size_t i = shard.index - 1; i < all.orders.size(); i += shard.of) {
-    part.orders.push_back(all.orders[i]);
-    part.values.push_back(all.values[i]);
-    part.points.push_back(all.points[i]);
-  }
-  return part;
-}
-
 Table sweep_table(const SweepConfig& sweep, const SweepOrders& orders, const std::vector<FlightRecord>& records,
                   const std::vector<Table::Column>& before) {
   std::vector<Table::Column> extra = before;
-  extra.push_back(
-      {.name = "point", .values = std::vector<double>(orders.points.begin(), orders.points.end()), .whole = true});
+  extra.push_back(value_column("point", orders.points));
   for (size_t i = 0; i < sweep.parameters.size(); ++i) {
     std::vector<std::string> texts;
     for (const auto& values : orders.values) texts.push_back(values.at(i));

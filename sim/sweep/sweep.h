@@ -18,21 +18,15 @@ struct Shard {
 /// Reads a shard such as "2/8". Throws InputError for any other text.
 Shard parse_shard(const std::string& text);
 
-/// All flights of a sweep.
+/// Flights of a sweep.
 struct SweepOrders {
   std::vector<Order> orders;
   std::vector<std::vector<std::string>> values;  ///< of the parameters, one list per order
-  std::vector<size_t> points;                    ///< number of the point, one per order
+  std::vector<std::string> points;               ///< number of the point, one per order
 
-  void add(const SweepConfig& sweep, size_t point, const std::vector<std::string>& point_values);
+  void add(Order order, const std::vector<std::string>& point_values, const std::string& point);
   void append(const SweepOrders& more);
 };
-
-/// Returns the orders of a sweep. Throws InputError with the faults of every invalid point. Not for OptimizeDesign.
-SweepOrders sweep_orders(const SweepConfig& sweep);
-
-/// Returns the orders of a shard.
-SweepOrders part_of(const SweepOrders& all, Shard shard);
 
 /// Returns the table of flights with additional columns for the point's number and the parameter values.
 /// @param before  further columns to the left of these.

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <set>
 
+#include "sim/batch/flight_table.h"
 #include "sim/batch/input_files.h"
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
-#include "sim/config/numbers.h"
+#include "sim/config/outline_texts.h"
 #include "sim/config/reader.h"
 #include "sim/scenario/flight_parts.h"
+#include "sim/sweep/design.h"
+#include "sim/sweep/sampling.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 /// Returns the fault of a parameter; "" if it is valid.
 std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) {
   const bool is_grid = std::holds_alternative<GridDesign>(design);
+  const auto* const sobol = std::get_if<SobolDesign>(&design);
   if (p.path == "seed") return "varied by 'seeds', not as a parameter";
   if (p.values.empty() && !(p.from && p.to)) return "needs 'values', or 'from' and 'to'";
   if (!p.values.empty() && (p.from || p.to || p.count > 0)) return "has both values and a range";
@@ -28,40 +32,34 @@ std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) 
   if (p.values.empty() && is_grid && p.count < 2) return "a grid needs 'count' >= 2 of a range";
   if (p.values.empty() && std::holds_alternative<ListDesign>(design)) return "a list needs 'values'";
   if (!p.values.empty() && std::holds_alternative<OptimizeDesign>(design)) return "an optimizer needs a range";
+  if (!p.values.empty() && sobol && sobol->indices) return "Sobol indices need a range";
   return "";
 }
 
-size_t grid_count(const SweepParameter& p) { return p.values.empty() ? static_cast<size_t>(p.count) : p.values.size(); }
-
-std::string grid_value(const SweepParameter& p, size_t index) {
-  if (!p.values.empty()) return p.values[index];
-  return parameter_value(p, static_cast<double>(index) / static_cast<double>(p.count - 1));
-}
-
-std::vector<std::vector<std::string>> grid(const std::vector<SweepParameter>& parameters) {
-  std::vector<std::vector<std::string>> points{{}};
-  for (const SweepParameter& p : parameters) {
-    std::vector<std::vector<std::string>> longer;
-    for (const auto& point : points) {
-      for (size_t i = 0; i < grid_count(p); ++i) {
-        longer.push_back(point);
-        longer.back().push_back(grid_value(p, i));
-      }
+/// Adds the faults of the design as a whole.
+void inspect_design(const SweepConfig& sweep, const Node& root, ErrorList& faults) {
+  if (const size_t points = count_points(sweep); points > kMaxSweepPoints) {
+    double product = 1.0;
+    for (const SweepParameter& p : sweep.parameters) {
+      product *= static_cast<double>(p.values.empty() ? p.count : static_cast<int64_t>(p.values.size()));
     }
-    points = std::move(longer);
+    const bool is_grid = std::holds_alternative<GridDesign>(sweep.design);
+    faults.add(position_of(root, is_grid ? "parameters" : "design.points"),
+               fmt::format("{} points; a sweep has at most {}",
+                           is_grid ? fmt::format("the grid has {:.6g}", product) : "the design has too many",
+                           kMaxSweepPoints));
   }
-  return points;
+  const auto* const sobol = std::get_if<SobolDesign>(&sweep.design);
+  const size_t coordinates = sweep.parameters.size() * (sobol && sobol->indices ? 2 : 1);
+  if (sobol && coordinates > kSobolDimensions) {
+    faults.add(position_of(root, "design"),
+               fmt::format("Sobol's sequence supports {} parameters{}; there are {}",
+                           kSobolDimensions / (sobol->indices ? 2 : 1), sobol->indices ? " with indices" : "",
+                           sweep.parameters.size()));
+  }
 }
 
-}  // namespace
-
-SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  ErrorList faults("sweep");
-  const Node root = load_tree(file, faults);
-  SweepConfig sweep;
-  if (root.kind == Node::Kind::map) read_struct(root, "", "", sweep, faults);
-  faults.throw_if_any();
-
+void inspect_parameters(const SweepConfig& sweep, const Node& root, ErrorList& faults) {
   std::set<std::string> paths;
   for (size_t i = 0; i < sweep.parameters.size(); ++i) {
     const std::string at = fmt::format("parameters.{}", i);
@@ -77,36 +75,133 @@ SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std:
     }
   }
   if (sweep.parameters.empty()) faults.add(position_of(root, "parameters"), "requires at least one parameter");
-  if (sweep.seeds) parse_seeds(*sweep.seeds);
-  if (sweep.seeds && sweep.tuned_on && !within(*sweep.seeds, *sweep.tuned_on)) {
-    faults.add(position_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "
-                                                       "parameters, so its seeds must not judge",
-                                                       *sweep.seeds, *sweep.tuned_on));
+}
+
+void inspect_seeds(const SweepConfig& sweep, const Node& root, ErrorList& faults) {
+  for (const auto& [key, seeds] : {std::pair("seeds", sweep.seeds), std::pair("tuned_on", sweep.tuned_on)}) {
+    try {
+      if (seeds) parse_seeds(*seeds);
+    } catch (const InputError& error) {
+      faults.add(position_of(root, key), error.errors().front());
+    }
   }
+  if (!faults.empty() || !sweep.seeds || !sweep.tuned_on || within(*sweep.seeds, *sweep.tuned_on)) return;
+  faults.add(position_of(root, "seeds"), fmt::format("seeds '{}' are not all of tuned_on '{}': a sweep chooses "
+                                                     "parameters, so its seeds must not judge",
+                                                     *sweep.seeds, *sweep.tuned_on));
+}
+
+/// Reads the scenario without the parameters. Its faults name the sweep's line, too.
+Scenario base_scenario(const SweepConfig& sweep, const Node& root) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(sweep.scenario, ignored)) {
+    ErrorList faults("sweep");
+    faults.add(position_of(root, "scenario"), fmt::format("there is no file '{}'", sweep.scenario));
+    faults.throw_if_any();
+  }
+  try {
+    return load_scenario(sweep.scenario, sweep.set);
+  } catch (const InputError& error) {
+    if (refused_parameters(sweep).empty()) {  // a parameter completes the scenario
+      std::vector<std::string> overrides = sweep.set;
+      overrides.push_back(sweep.parameters[0].path + "=" + parameter_value(sweep.parameters[0], 0.0));
+      return load_scenario(sweep.scenario, overrides);
+    }
+    std::vector<std::string> lines;
+    for (const std::string& fault : error.errors()) lines.push_back(at_parameter(sweep, fault));
+    throw InputError(lines);
+  }
+}
+
+}  // namespace
+
+void SweepValue::read(const Node& node, const std::string&, const fields::Field&, ErrorList&) {
+  text = node.kind == Node::Kind::scalar ? node.text : flow_text(node);
+  position = node.position;
+}
+
+ConfigOutline SweepValue::outlined(const fields::Field& field) const {
+  ConfigOutline outline;
+  outline.kind = ConfigOutline::Kind::any;
+  outline.field = field;
+  outline.value = text;
+  return outline;
+}
+
+SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  ErrorList faults("sweep");
+  const Node root = load_tree(file, faults);
+  SweepConfig sweep;
+  if (root.kind == Node::Kind::map) read_struct(root, "", "", sweep, faults);
   faults.throw_if_any();
-  for (const std::string& text : overrides) {
-    if (const std::string key = text.substr(0, text.find('=')); paths.contains(key))
-      throw InputError(fmt::format("--set {}: is a parameter of {}", key, file.string()));
+
+  inspect_parameters(sweep, root, faults);
+  inspect_seeds(sweep, root, faults);
+  faults.throw_if_any();
+  inspect_design(sweep, root, faults);
+  faults.throw_if_any();
+  sweep.file = file;
+  sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
+  sweep.design_position = position_of(root, "design");
+  for (size_t i = 0; i < sweep.parameters.size(); ++i) {
+    sweep.parameters[i].position = position_of(root, fmt::format("parameters.{}.path", i));
+  }
+  for (size_t i = 0; i < sweep.set.size(); ++i) {
+    sweep.set_positions.push_back(position_of(root, fmt::format("set.{}", i)));
   }
   sweep.set = with_module_paths(sweep.set, file.parent_path());
-  sweep.set.insert(sweep.set.end(), overrides.begin(), overrides.end());
-  sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    if (std::ranges::find(sweep.parameters, key, &SweepParameter::path) != sweep.parameters.end())
+      throw InputError(fmt::format("--set {}: is a parameter of {}", key, file.string()));
+    sweep.set.push_back(text);
+    sweep.set_positions.emplace_back();
+  }
+  const Scenario scenario = base_scenario(sweep, root);
   if (const std::vector<std::string> refused = refused_parameters(sweep); !refused.empty()) throw InputError(refused);
+  if (const auto* optimize = std::get_if<OptimizeDesign>(&sweep.design)) {
+    const std::string fault = column_fault(optimize->minimize, scenario);
+    if (!fault.empty()) faults.add(position_of(root, "design.minimize"), fault);
+  }
+  faults.throw_if_any();
   return sweep;
+}
+
+std::string at_parameter(const SweepConfig& sweep, const std::string& fault) {
+  const auto replaced = [&](const std::string& key, const SourcePosition& position) {
+    const std::string prefix = "--set " + key + ": ";
+    return position.file.empty() || !fault.starts_with(prefix)
+               ? std::string()
+               : fmt::format("{}: {}", position.text(), fault.substr(prefix.size()));
+  };
+  for (const SweepParameter& parameter : sweep.parameters) {
+    if (std::string text = replaced(parameter.path, parameter.position); !text.empty()) return text;
+  }
+  for (size_t i = 0; i < sweep.set_positions.size(); ++i) {
+    const std::string key = sweep.set[i].substr(0, sweep.set[i].find('='));
+    if (std::string text = replaced(key, sweep.set_positions[i]); !text.empty()) return text;
+  }
+  return fault;
 }
 
 std::vector<std::string> refused_parameters(const SweepConfig& sweep) {
   std::vector<std::string> faults;
   for (const SweepParameter& p : sweep.parameters) {
-    std::vector<std::string> values = p.values;
-    if (values.empty()) values = {parameter_value(p, 0.0), parameter_value(p, 1.0)};
-    for (const std::string& value : values) {
+    std::vector<SweepValue> values = p.values;
+    if (values.empty()) values = {{parameter_value(p, 0.0), p.position}, {parameter_value(p, 1.0), p.position}};
+    for (const SweepValue& value : values) {
       std::vector<std::string> overrides = sweep.set;
-      overrides.push_back(p.path + "=" + value);
+      overrides.push_back(p.path + "=" + value.text);
       try {
         load_scenario(sweep.scenario, overrides);
       } catch (const InputError& error) {
-        for (const std::string& fault : error.errors()) {
+        for (std::string fault : error.errors()) {
+          const std::string moved = at_parameter(sweep, fault);
+          if (moved != fault) {
+            fault = moved;
+          } else if (!p.position.file.empty()) {
+            fault = fmt::format("{}: with {}: {}", value.position.text(), overrides.back(), fault);
+          }
           if (std::ranges::find(faults, fault) == faults.end()) faults.push_back(fault);
         }
       }
@@ -118,61 +213,13 @@ std::vector<std::string> refused_parameters(const SweepConfig& sweep) {
 std::string parameter_value(const SweepParameter& p, double coordinate) {
   if (!p.values.empty()) {
     const auto index = static_cast<size_t>(coordinate * static_cast<double>(p.values.size()));
-    return p.values[std::min(index, p.values.size() - 1)];
+    return p.values[std::min(index, p.values.size() - 1)].text;
   }
   double value = p.scale == SweepParameter::Scale::log ? *p.from * std::pow(*p.to / *p.from, coordinate)
                                                        : *p.from + coordinate * (*p.to - *p.from);
   if (coordinate == 1.0) value = *p.to;  // without pow's rounding
   if (p.whole) return fmt::format("{:.0f}", std::round(value));
   return fmt::format("{}", value);
-}
-
-std::vector<std::vector<std::string>> design_points(const SweepConfig& sweep) {
-  const std::vector<SweepParameter>& parameters = sweep.parameters;
-  std::vector<std::vector<std::string>> points;
-  if (std::holds_alternative<GridDesign>(sweep.design)) return grid(parameters);
-  if (std::holds_alternative<ListDesign>(sweep.design)) {
-    for (size_t i = 0; i < parameters[0].values.size(); ++i) {
-      points.emplace_back();
-      for (const SweepParameter& p : parameters) points.back().push_back(p.values[i]);
-    }
-    return points;
-  }
-  UnitPoints unit;
-  if (const auto* random = std::get_if<RandomDesign>(&sweep.design)) {
-    unit = random_points(static_cast<size_t>(random->points), parameters.size(), random->seed);
-  } else if (const auto* latin = std::get_if<LatinHypercubeDesign>(&sweep.design)) {
-    unit = latin_hypercube(static_cast<size_t>(latin->points), parameters.size(), latin->seed);
-  } else if (const auto* sobol = std::get_if<SobolDesign>(&sweep.design)) {
-    unit = build_part("design", [&] { return sobol_points(static_cast<size_t>(sobol->points), parameters.size()); });
-  }
-  for (const std::vector<double>& coordinates : unit) {
-    points.emplace_back();
-    for (size_t i = 0; i < parameters.size(); ++i) {
-      points.back().push_back(parameter_value(parameters[i], coordinates[i]));
-    }
-  }
-  return points;
-}
-
-std::vector<Order> point_orders(const SweepConfig& sweep, size_t point, const std::vector<std::string>& values) {
-  Order order{.scenario = sweep.scenario, .overrides = sweep.set};
-  order.group = fmt::format("point {}", point);
-  for (size_t i = 0; i < values.size(); ++i) {
-    order.overrides.push_back(sweep.parameters[i].path + "=" + values[i]);
-    order.group += " " + order.overrides.back();
-  }
-  const LoadedScenario loaded = load_flight(order.scenario, order.overrides);
-  const Scenario& scenario = loaded.scenario;
-  order.inputs = loaded.inputs;
-  std::vector<Order> orders;
-  for (const uint64_t seed : sweep.seeds ? parse_seeds(*sweep.seeds) : std::vector<uint64_t>{scenario.seed}) {
-    order.seed = seed;
-    order.id = fmt::format("flights/{:06}-seed{}", point, seed);
-    order.scenario_yaml = resolved_yaml(scenario, seed);
-    orders.push_back(order);
-  }
-  return orders;
 }
 
 }  // namespace hedgehop::sim

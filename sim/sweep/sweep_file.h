@@ -1,31 +1,50 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "sim/batch/record.h"
+#include "sim/config/input_error.h"
 #include "sim/fields/field.h"
-#include "sim/sweep/sampling.h"
 
 namespace hedgehop::sim {
+
+struct ConfigOutline;
+struct Node;
+
+/// Maximum number of points of a sweep.
+inline constexpr size_t kMaxSweepPoints = 1'000'000;
+
+/// One value of a list: any YAML value, also a map or null.
+struct SweepValue {
+  static constexpr bool kIsSealed = true;
+
+  std::string text;         ///< as YAML on one line, as it follows "--set key="
+  SourcePosition position;  ///< in the sweep's file
+
+  // As every sealed field (field_types.h).
+  void read(const Node& node, const std::string& path, const fields::Field& field, ErrorList& errors);
+  ConfigOutline outlined(const fields::Field& field) const;
+};
 
 /// One parameter of a sweep: a list of values or a range.
 struct SweepParameter {
   enum class Scale { linear, log };
   std::string path;
-  std::vector<std::string> values;
+  std::vector<SweepValue> values;
   std::optional<double> from, to;
   int64_t count = 0;
   Scale scale = Scale::linear;
   bool whole = false;
+  SourcePosition position = {};  ///< in the sweep's file; empty if it has no file
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<SweepParameter> auto& c) {
   v("path", c.path, {.required = true, .meaning = "key of the scenario, such as avoidance.flow_gain"});
-  v("values", c.values, {.meaning = "list of values; alternative to a range"});
+  v("values", c.values, {.meaning = "list of values of any kind, also maps and null; alternative to a range"});
   v("from", c.from, {.meaning = "lower end of the range, in the key's unit"});
   v("to", c.to, {.meaning = "upper end of the range"});
   v("count", c.count,
@@ -73,11 +92,14 @@ struct SobolDesign {
   static constexpr std::string_view kName = "sobol";
   static constexpr std::string_view kMeaning = "Sobol's sequence: covers all parameters together evenly";
   int64_t points = 0;
+  bool indices = false;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<SobolDesign> auto& c) {
   v("points", c.points,
     {.at_least = 1, .at_most = 1'000'000, .required = true, .meaning = "number of points; preferably a power of 2"});
+  v("indices", c.indices,
+    {.meaning = "whether the points are arranged for Sobol indices, which takes points x (parameters + 2) points"});
 }
 
 struct OptimizeDesign {
@@ -113,6 +135,9 @@ struct SweepConfig {
   std::vector<std::string> set;
   SweepDesign design;
   std::vector<SweepParameter> parameters;
+  std::filesystem::path file = {};            ///< that it was read from
+  SourcePosition design_position = {};        ///< of the design in this file
+  std::vector<SourcePosition> set_positions;  ///< of the items of `set` in this file; may have fewer
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<SweepConfig> auto& c) {
@@ -127,21 +152,18 @@ void describe(Visitor& v, fields::ConfigOf<SweepConfig> auto& c) {
 }
 
 /// Reads a sweep. Throws InputError with every fault of the file and of its parameters: unknown paths with the nearest
-/// key, wrong types, values out of bounds.
+/// key, wrong types, values out of bounds, too many points, unknown columns. Each fault names the line of the file.
 /// @param overrides  "a.b=value", of the scenario at every point, after those of the file.
 SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// Returns the faults of each parameter's extreme or listed values, each tried alone; one line per fault.
+/// Returns the faults of each parameter's extreme or listed values, each tried alone; one line per fault, with the
+/// position of the value.
 std::vector<std::string> refused_parameters(const SweepConfig& sweep);
+
+/// Returns a fault of an override with the position of the parameter instead of "--set key".
+std::string at_parameter(const SweepConfig& sweep, const std::string& fault);
 
 /// Returns the value of a parameter at a coordinate in [0, 1], as YAML.
 std::string parameter_value(const SweepParameter& parameter, double coordinate);
-
-/// Returns all points of a design as values of the parameters, in their order. Not for OptimizeDesign, which searches.
-std::vector<std::vector<std::string>> design_points(const SweepConfig& sweep);
-
-/// Returns the orders of one point, one per seed. Ids and groups contain the point's number. Throws InputError if the
-/// scenario is invalid with the point's values.
-std::vector<Order> point_orders(const SweepConfig& sweep, size_t point, const std::vector<std::string>& values);
 
 }  // namespace hedgehop::sim

@@ -12,6 +12,16 @@ namespace {
 
 constexpr double kPrinted4 = 0.00005;  // tables with four decimals
 
+/// Published quantiles of Student's distribution, to three decimals.
+TEST(StudentFactor, EqualsTheTables) {
+  constexpr double kPrinted = 0.0006;
+  EXPECT_NEAR(student_factor(2, 0.95), 12.706, kPrinted);
+  EXPECT_NEAR(student_factor(3, 0.95), 4.303, kPrinted);
+  EXPECT_NEAR(student_factor(5, 0.95), 2.776, kPrinted);
+  EXPECT_NEAR(student_factor(10, 0.95), 2.262, kPrinted);
+  EXPECT_NEAR(student_factor(31, 0.99), 2.750, kPrinted);
+}
+
 /// [Newcombe1998a] table 1, method 3.
 TEST(WilsonInterval, MatchesPublishedTable) {
   struct Row {

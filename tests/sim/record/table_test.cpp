@@ -16,6 +16,18 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
+TEST(Table, AppendsRowsByTheNamesOfColumns) {
+  Table table, more;
+  table.add("id", std::vector<std::string>{"a"});
+  table.add("metric.x", std::vector<double>{1.0});
+  table.add("last", std::vector<double>{2.0});
+  more.add("id", std::vector<std::string>{"b"});
+  more.add("metric.x", std::vector<std::string>{"word"});
+  more.add("metric.y", std::vector<double>{3.0});
+  table.append(std::move(more));
+  EXPECT_EQ(table.csv(), "id,metric.x,metric.y,last\na,1,,2\nb,word,3,\n");
+}
+
 TEST(Table, NamesFileLineAndColumnOfABadNumber) {
   const TemporaryFolder folder;
   write_file_whole(folder.path() / "t.csv", "t_s,a_m\n0,1\n1,two\n");

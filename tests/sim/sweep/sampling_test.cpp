@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -62,11 +63,35 @@ TEST(Sobol, EverySegmentOfAPowerOfTwoIsANet) {
 
 /// Sobol's property A, which the numbers of Joe and Kuo satisfy by design: 2^s points, one in each of the 2^s orthants.
 TEST(Sobol, OrthantsOfTheCubeHoldOnePointEach) {
-  for (size_t dimensions = 1; dimensions <= kSobolDimensions; ++dimensions) {
+  constexpr size_t kFast = 12;
+  for (size_t dimensions = 1; dimensions <= kFast; ++dimensions) {
     UnitPoints points;
     for (uint32_t i = 0; i < 1u << dimensions; ++i) points.push_back(sobol_point(i, dimensions));
     EXPECT_EQ(box_counts(points, std::vector<int>(dimensions, 1)).size(), size_t{1} << dimensions) << dimensions;
   }
+}
+
+/// The first bits of 2^20 points span all orthants of 20 dimensions if the matrix of these bits has full rank.
+TEST(Sobol, FirstBitsOfAllDimensionsAreIndependent) {
+  std::vector<uint32_t> rows;
+  for (uint32_t k = 0; k < kSobolDimensions; ++k) {
+    uint32_t row = 0;
+    const std::vector<double> point = sobol_point(1u << k, kSobolDimensions);
+    for (size_t d = 0; d < kSobolDimensions; ++d) row |= (point[d] >= 0.5 ? 1u : 0u) << d;
+    rows.push_back(row);
+  }
+  size_t rank = 0;
+  for (uint32_t bit = 0; bit < kSobolDimensions; ++bit) {
+    const auto pivot = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(rank), rows.end(),
+                                    [&](uint32_t row) { return (row >> bit & 1u) != 0; });
+    if (pivot == rows.end()) continue;
+    std::iter_swap(rows.begin() + static_cast<std::ptrdiff_t>(rank), pivot);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (i != rank && (rows[i] >> bit & 1u) != 0) rows[i] ^= rows[rank];
+    }
+    ++rank;
+  }
+  EXPECT_EQ(rank, kSobolDimensions);
 }
 
 TEST(Sobol, RejectsDimensionsWithoutDirectionNumbers) {

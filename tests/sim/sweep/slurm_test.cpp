@@ -15,7 +15,7 @@ TEST(SweepOnSlurm, EqualsTheLocalSweepByteForByteIfAFlightCrashesOnce) {
                "scenario: tiny.yaml\nseeds: 1:2\n"
                "parameters: [{path: avoidance.speed, from: 0.5, to: 2, count: 3}]\n");
   const std::string worker = folder.worker(
-      "case \"$*\" in *000001-seed2*) [ -e died ] || { touch died; exit 3; } ;; esac\n"
+      "case \"$*\" in *'seed 2 --set avoidance.speed=1.25 '*) [ -e died ] || { touch died; exit 3; } ;; esac\n"
       "fly \"$@\"");
   folder.write("job.sh", std::string("set -e\n") + HEDGEHOP_PROGRAM +
                              " sweep sweep.yaml --out remote --on slurm --tasks 3 -j 1 --program " + worker +

@@ -181,6 +181,7 @@ function main() {
   const data = JSON.parse(document.getElementById('data').textContent), table = new FlightTable(data);
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
+  if (data.sweep) for (const group of data.groups) group.group = group.group.replace(/^point \S+ /, '');
   fillGroups(host('groups'), data, table);
   if (data.search) {
     host('groups-card').remove();
@@ -207,7 +208,9 @@ function main() {
   fillStrips(host('strips-card'), data, table, on);
   const flights = new FlightsView(host('flights'), data, table, [...shownAtFirst.slice(0, 2), ...data.swept, ...shownAtFirst.slice(2)], on);
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
-  const success = new SuccessMap(host('success'), data, table, on), scatter = new Scatter(host('scatter'), data, table, on);
+  const flightPlots = data.sweep ? [] : [new SuccessMap(host('success'), data, table, on), new Scatter(host('scatter'), data, table, on)];
+  if (data.sweep) host('success-card').parentElement.remove();
+  const sweep = data.sweep ? new SweepSections(host, data, table, on) : null;
   const against = new AgainstView(host('against-card'), data, table, on);
   const search = new SearchView(host('search-card'), data, table, on);
   fillColumns(host('columns').querySelector('div'), table, flights);
@@ -219,15 +222,16 @@ function main() {
     const {terms, fault} = parseFilter(table, filter.value), rows = filteredRows(table, terms);
     host('filter-note').textContent = fault || `${rows.length} of ${table.count} flights, in the table and in all plots`;
     host('filter-note').className = fault ? 'bad-text' : 'soft';
-    for (const view of [flights, paths, success, scatter]) view.setRows(rows);
+    for (const view of [flights, paths, ...flightPlots]) view.setRows(rows);
     fillWorst(host('worst'), data, table, rows, on);
   };
   filter.addEventListener('input', update);
   update();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     paths.map?.draw();
-    for (const view of [success, scatter, against, search, ...collisions]) view.axes?.draw();
-    scatter.drawKey();
+    for (const view of [...flightPlots, against, search, ...collisions]) view.axes?.draw();
+    for (const view of flightPlots) view.drawKey?.();
+    sweep?.redraw();
   });
 }
 main();

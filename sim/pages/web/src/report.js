@@ -182,6 +182,7 @@ function main() {
   const film = openFilm(), filmView = film && new FilmView(film);
   if (film) setPoster(film, data.result.closest_obstacle?.t_s ?? 0);
   fillStory(document.getElementById('story'), data, film);
+  const against = new RunAgainst(document.getElementById('against'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();
 
   // Plan and plots show the same instant: that of the pointer, else that of the video.
@@ -225,6 +226,6 @@ function main() {
   const color = document.getElementById('plan-color');
   plan.colorings.forEach(({name}) => color.append(make('option', '', name)));
   color.addEventListener('change', () => plan.setColoring(color.value));
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); landmarks?.draw(); charts.build(); });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { plan.draw(); landmarks?.draw(); charts.build(); against.redraw(); });
 }
 main();

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/pages/sweep_data.h"
+
+namespace hedgehop::sim {
+
+/// The mean of a column over the seeds of a point.
+struct PointFigure {
+  double mean = 0.0;             ///< NaN if a flight lacks the figure
+  double low = 0.0, high = 0.0;  ///< 95 % interval over the seeds: Student, or Wilson of `passed`; NaN for one seed
+  size_t passed = 0, flights = 0;
+};
+
+/// The ranking of a sweep's points by a column.
+struct SweepAnalysis {
+  SweepTable points;
+  std::string column, unit;
+  bool less = true;                  ///< whether less is better
+  std::vector<PointFigure> figures;  ///< one per point
+  std::vector<size_t> ranking;       ///< points whose flights all passed first, then by the mean, then by the clearance
+};
+
+/// @param column  empty: the minimized column of an optimizer, else `passed` if it varies, else the clearance.
+/// Throws InputError for an unknown column, with the nearest name.
+SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightList& flights, std::string column);
+
+/// Returns the figures of another column. Throws as analyze_sweep().
+std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTable& points, const std::string& column);
+
+/// Whether more of a column is better by its name: clearances, rates.
+bool more_is_better(const std::string& column);
+
+/// Writes tables (LaTeX with booktabs, and CSV) and figures (SVG and PDF) of a sweep for a paper.
+/// @param out  folder, created if necessary. @return the names of the files.
+std::vector<std::string> write_sweep_figures(const std::filesystem::path& folder, const std::filesystem::path& out,
+                                             const std::string& column);
+
+}  // namespace hedgehop::sim
