@@ -34,7 +34,7 @@ struct RunOptions {
   bool no_video = false;
   bool json = false;
   bool no_report = false;
-  bool view = false;                         ///< show the flight in a browser while it is flown
+  bool view = false;                        ///< show the flight in a browser while it is flown
   std::vector<std::string> keep_if_failed;  ///< of a worker: "report", "film", "replay"; written if the flight fails
   int64_t worker_of = 0;  ///< parent process, whose end ends this run; no progress is shown; 0 for a run by a user
 };

@@ -159,6 +159,8 @@ TEST(ReportInBrowser, ShowsTheReferenceOfAPathCheckOnThePlan) {
   const std::string check =
       "checks=[{check: path_tolerance, at_most: 1, reference: " + (run.path() / "path.csv").string() + "}]";
   EXPECT_NE(has_reference(check), has_reference("checks=[]"));
+}
+
 TEST(ReportInBrowser, FillsTheWidthWithoutEmptyHalves) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
