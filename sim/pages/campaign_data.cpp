@@ -25,9 +25,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr size_t kMaxStripBytes = 2'500'000;  // limit for pages below 10 MB; base64 adds a third
-const std::set<std::string> kWordColumns = {"id",      "group",      "scenario",        "status",
-                                            "outcome", "cause",      "trajectory_hash", "command",
-                                            "build",   "truth_used", "renderer",        "libraries", "point"};
+const std::set<std::string> kWordColumns = {"id",       "group",           "scenario", "status", "outcome",
+                                            "cause",    "trajectory_hash", "command",  "build",  "truth_used",
+                                            "renderer", "libraries",       "point"};
 
 /// Returns a number with six significant figures.
 Json six(double value) {

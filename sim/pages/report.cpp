@@ -14,8 +14,8 @@
 #include "sim/pages/panels.h"
 #include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
-#include "sim/scenario/reference_path.h"
 #include "sim/pages/run_against.h"
+#include "sim/scenario/reference_path.h"
 
 namespace hedgehop::sim {
 namespace {

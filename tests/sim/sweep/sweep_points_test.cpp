@@ -54,7 +54,7 @@ TEST_F(PointsOfASweep, OfEqualContentAreFlownOnceAndReported) {
   end = sweep("  - {path: rig.cameras.0.width, from: 62, to: 66, count: 9, whole: true}\n");
   EXPECT_EQ(end.out, "5\n");
   EXPECT_THAT(end.err, HasSubstr("s.yaml:5:12: 'rig.cameras.0.width': 4 of 9 values are rounded to another value: "
-                                 "62.5 to 62, 63.5 to 64, 64.5 to 64, ..."));
+                                 "62.5 to 63, 63.5 to 64, 64.5 to 65, ..."));
 }
 
 TEST_F(PointsOfASweep, WithAParameterWithoutEffectAreRefused) {
