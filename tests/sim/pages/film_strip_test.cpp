@@ -100,7 +100,7 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
 
 TEST(FilmStrip, ShowsTheEndOfATimeout) {
   const CampaignFolder folder;
-  folder.write("timeout.yaml", folder.read("tiny.yaml") + "  - {check: reached_goal}\n");
+  folder.write("timeout.yaml", "use: tiny.yaml\nchecks: [{check: reached_goal}]\n");
   folder.hedgehop("batch timeout.yaml --out out --set duration=0.5");
   const CommandEnd end = folder.hedgehop("report out --film-strips 1");
   EXPECT_EQ(end.err, "1/1: re-simulating tiny_duration=0.5/seed1 for its film strip\n");
