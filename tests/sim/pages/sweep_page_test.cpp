@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A grid of 3 gains and 2 ranges with two seeds each. The clearance is gain + 10 range, with seeds 0.1 apart; the
+/// A grid of 3 gains and 2 ranges with two seeds each. The clearance is gain + 5 range, with seeds 0.1 apart; the
 /// flights with the gain 3 collide.
 std::filesystem::path write_grid(const std::filesystem::path& folder) {
   std::vector<FlightRecord> records;
@@ -31,7 +31,7 @@ std::filesystem::path write_grid(const std::filesystem::path& folder) {
         FlightResult& result = record.result.emplace().flight;
         result.outcome = collides ? Outcome::collided : Outcome::reached;
         result.flight_time_s = 10.0 * gain;
-        result.closest_obstacle.distance_m = gain + 10.0 * range + 0.1 * static_cast<double>(seed);
+        result.closest_obstacle.distance_m = gain + 5.0 * range + 0.1 * static_cast<double>(seed);
         result.checks = {{.name = "no_collision", .passed = !collides, .value = 1.0, .limit = 0.0, .unit = "m"}};
         records.push_back(record);
         points.push_back(point);
@@ -52,20 +52,21 @@ TEST(SweepAnalysis, RanksPassedPointsByTheMeanWithStudentsInterval) {
   const FlightList flights = read_flights(write_grid(folder.path()));
   const SweepAnalysis analysis = analyze_sweep(folder.path(), flights, "min_obstacle_clearance_m");
   EXPECT_THAT(analysis.ranking, ::testing::ElementsAre(3, 2, 1, 0, 5, 4));
-  EXPECT_NEAR(analysis.figures[3].mean, 4.15, 1e-12);
-  EXPECT_NEAR(analysis.figures[3].high - 4.15, 12.706 * 0.05, 1e-3);
+  EXPECT_NEAR(analysis.figures[3].mean, 3.15, 1e-12);
+  EXPECT_NEAR(analysis.figures[3].high - 3.15, 12.706 * 0.05, 1e-3);
   EXPECT_THROW(analyze_sweep(folder.path(), flights, "min_clearence_m"), InputError);
 }
 
-/// The clearance is a sum of both parameters: variances 2/3 and 1/4.
+/// The clearance is a sum of both parameters: variances 2/3 and 1/16.
 TEST(SweepData, HasTheIndicesOfAGrid) {
   const TemporaryFolder folder;
-  const auto data = sweep_data(write_grid(folder.path()), read_flights(folder.path()));
+  write_grid(folder.path());
+  const auto data = sweep_data(folder.path(), read_flights(folder.path()));
   EXPECT_EQ(data.at("effects").at("method"), "grid");
   const auto& rows = data.at("effects").at("columns").at("min_obstacle_clearance_m");
-  const double whole = 2.0 / 3.0 + 0.25;
+  const double whole = 2.0 / 3.0 + 0.0625;
   EXPECT_NEAR(rows[0][0].get<double>(), 2.0 / 3.0 / whole, 1e-4);
-  EXPECT_NEAR(rows[1][3].get<double>(), 0.25 / whole, 1e-4);
+  EXPECT_NEAR(rows[1][3].get<double>(), 0.0625 / whole, 1e-4);
 }
 
 TEST(SweepInBrowser, OpensWithTheBestPointAndFollowsTheColumn) {
@@ -98,8 +99,8 @@ TEST(SweepInBrowser, OpensWithTheBestPointAndFollowsTheColumn) {
     EXPECT_EQ(page.value.at("rows"), 6);
     EXPECT_EQ(page.value.at("selected"), "flights/p1-seed1");
     EXPECT_LE(page.value.at("wide"), width_px);
-    EXPECT_NEAR(page.value.at("cell").get<double>(), 4.15, 1e-9);
-    EXPECT_NEAR(page.value.at("figure").at("high").get<double>(), 4.15 + 12.706 * 0.05, 1e-3);
+    EXPECT_NEAR(page.value.at("cell").get<double>(), 3.15, 1e-9);
+    EXPECT_NEAR(page.value.at("figure").at("high").get<double>(), 3.15 + 12.706 * 0.05, 1e-3);
   }
 }
 
@@ -161,7 +162,7 @@ TEST(RunAgainst, NamesTheFirstDifferenceAndTheSettings) {
   const CampaignFolder folder;
   const std::string quick = " --no-video --no-report --renderer tiles --set duration=1 ";
   ASSERT_LE(folder.hedgehop("run tiny.yaml --out a" + quick).status, 1);
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --out b --set avoidance.speed=2" + quick).status, 1);
+  ASSERT_LE(folder.hedgehop("run tiny.yaml --out b --set avoidance.speed=1" + quick).status, 1);
   ASSERT_EQ(folder.hedgehop("report b --against a").status, 0);
   const PageVisit page = visit(folder.path() / "b/report.html", R"js(
     const host = document.getElementById('against');
