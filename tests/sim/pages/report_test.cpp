@@ -256,7 +256,9 @@ TEST(Report, OfAFlightInMemoryEqualsThatFromItsFiles) {
   flight.trajectory[4].obstacle_clearance_m = std::numeric_limits<double>::infinity();
   flight.map.points = {{{40, 10, -20}, Eigen::Matrix3d::Identity(), true}};
   write_result_files(folder.path(), info, flight);
-  for (const auto& [write, page] : {std::pair(&write_report, "report.html"), std::pair(&write_replay, "replay.html")}) {
+  using Write = void (*)(const std::filesystem::path&, const RunRecord&);
+  const Write report = [](const std::filesystem::path& to, const RunRecord& run) { write_report(to, run); };
+  for (const auto& [write, page] : {std::pair(report, "report.html"), std::pair(Write(&write_replay), "replay.html")}) {
     write(folder.path(), run_record(scenario, info, flight));
     const std::string in_memory = read_file_whole(folder.path() / page);
     std::filesystem::remove(folder.path() / page);
