@@ -1,6 +1,7 @@
 #include "dynamics/vehicle.h"
 
 #include "dynamics/plausible_units.h"
+#include "sim/fields/bounds.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -12,6 +13,7 @@ AnyFlight make_flight(const multicopter::MulticopterConfig& config) { return mul
 AnyFlight make_flight(const VehicleConfig& config) {
   return std::visit(
       [](const auto& c) {
+        fields::require_bounds(c);
         require_plausible_units(c);
         return make_flight(c);
       },

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::set<std::string> kNoFigures = {"status",     "outcome", "cause",   "trajectory_hash",
-                                          "truth_used", "build",   "command", "robustness"};
+const std::set<std::string> kNoFigures = {"status", "outcome", "cause",      "trajectory_hash", "truth_used",
+                                          "build",  "command", "robustness", "renderer",        "libraries"};
 
 /// Returns the index of the point at each place of a full grid, the last parameter changing fastest; empty if the
 /// points are no full grid. @param counts  gains the number of values of each parameter.

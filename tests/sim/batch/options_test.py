@@ -96,7 +96,7 @@ class Validate(Program):
 
     def test_a_sweep_is_validated_as_a_sweep(self):
         self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
-        self.assertIn("avoidance.sped", self.hedgehop("validate sweep.yaml", status=2).stderr)
+        self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
 
 
 class BatchOptions(Program):
