@@ -69,6 +69,7 @@ class Vp8Encoder : public FilmEncoder {
     av_log_set_level(AV_LOG_ERROR);
     AVFormatContext* format = nullptr;
     check(avformat_alloc_output_context2(&format, nullptr, "webm", nullptr));
+    format->flags |= AVFMT_FLAG_BITEXACT;  // without random identifiers, so that equal flights give equal films
     format_.reset(format);
     encoder_ = make_encoder(rate_hz, size_px_);
     check(avcodec_open2(encoder_.get(), nullptr, nullptr));

@@ -122,7 +122,7 @@ TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedChec
     const text = (e) => e.textContent, groups = document.getElementById('groups');
     const rows = [...groups.querySelectorAll('tbody tr')].map((tr) => [...tr.children].map(text));
     return {rows: rows.length, hidden: groups.scrollHeight - groups.clientHeight, rates: rows.slice(1).map((row) => Number(row[2])),
-            badge: text(document.querySelector('#head .badge')), tile: text(document.querySelectorAll('#head .tile')[2]),
+            badge: text(document.querySelector('#head .badge')), tile: text(document.querySelectorAll('.tiles .tile')[2]),
             outcomes: [...new Set([...document.querySelectorAll('#flights tbody tr')].map((tr) => text(tr.children[3])))].sort()};)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value.at("rows"), 61);

@@ -263,7 +263,10 @@ TEST(Report, OfAFlightInMemoryEqualsThatFromItsFiles) {
     const std::string in_memory = read_file_whole(folder.path() / page);
     std::filesystem::remove(folder.path() / page);
     write(folder.path(), read_run(folder.path()));
-    EXPECT_EQ(read_file_whole(folder.path() / page) == in_memory, true) << page;
+    const std::string from_files = read_file_whole(folder.path() / page);
+    const auto differs = static_cast<size_t>(std::ranges::mismatch(from_files, in_memory).in1 - from_files.begin());
+    EXPECT_EQ(from_files == in_memory, true) << page << ": " << from_files.substr(differs, 80) << "\n"
+                                             << in_memory.substr(differs, 80);
   }
 }
 
