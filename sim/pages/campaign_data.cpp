@@ -94,7 +94,10 @@ std::string first_failed(const FlightRecord& record) {
   for (const CheckResult& check : record.result->flight.checks) {
     if (!check.passed && (first == nullptr || time_s(check) < time_s(*first))) first = &check;
   }
-  return first == nullptr ? outcome_words(record) : first->name;
+  if (first == nullptr) return outcome_words(record);
+  if (!first->name.empty()) return first->name;
+  // A table without the flights' own files does not name the checks.
+  return record.result->flight.outcome == Outcome::collided ? "no_collision" : "unknown check";
 }
 
 /// Returns a key of scenario and seed, which is equal for flights that differ in their settings only.
