@@ -163,7 +163,7 @@ void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& sc
 
 namespace {
 
-/// Removes the triangles of the ground and of roads. Boxes no longer stand on an opaque ground.
+/// Removes the triangles of the ground and of roads. Boxes then hide no view below their bottoms.
 void remove_ground(Scene& scene) {
   scene.has_ground = false;
   for (Mesh& mesh : scene.meshes) {

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using Face = std::array<uint32_t, 3>;
 
 constexpr double kMaxCoordinateM = 100e3;  // as for every position in a scenario
-constexpr float kMaxRepeats = 1e6f;        // of an image; floats resolve no more
+constexpr float kMaxRepeats = 1e6f;        // of an image; more exceeds the precision of floats
 
 // Returns the corners and faces of a part in W, without degenerate faces.
 Polyhedron faces_W(const Polyhedron& body, const Eigen::Affine3d& to_W) {

@@ -2,8 +2,8 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -66,7 +66,7 @@ Heightmap heights_of_png(std::span<const uint8_t> bytes) {
   if (depth == 16) png_set_swap(file.png);  // a PNG is big endian
   Heightmap map;
   map.values.create(static_cast<int>(rows), static_cast<int>(columns));
-  cv::Mat row(1, map.values.cols, depth == 16 ? CV_16UC1 : CV_8UC1), scaled;
+  cv::Mat row(1, map.values.cols, depth == 16 ? CV_16UC1 : CV_8UC1);
   for (int r = 0; r < map.values.rows; ++r) {
     png_read_row(file.png, row.data, nullptr);
     row.convertTo(map.values.row(r), CV_32F, depth == 16 ? 1.0 / 65535.0 : 1.0 / 255.0);

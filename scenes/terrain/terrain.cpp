@@ -119,6 +119,7 @@ void add_block(const Grid& grid, int first_row, int first_column, uint32_t textu
 
 void add_terrain(const TerrainConfig& config, const Eigen::Vector3d& origin_ENU, uint64_t seed, Scene& scene) {
   fields::require_bounds(config, "terrain");
+  fields::require(!config.heightmap.empty(), "terrain.heightmap", "is required");
   Heightmap map;
   try {
     map = read_heightmap(config.heightmap);

@@ -21,8 +21,7 @@ struct TerrainConfig {
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<TerrainConfig> auto& c) {
   v("heightmap", c.heightmap,
-    {.required = true,
-     .meaning = "grey PNG of 8 or 16 bit, or TIFF of one band in m; up is north; at most 512 x 512 samples"});
+    {.meaning = "grey PNG of 8 or 16 bit, or TIFF of one band in m; up is north; at most 512 x 512 samples"});
   v("spacing", c.spacing_m,
     {.unit = "m", .above = 0.0, .at_most = 1000.0, .meaning = "distance between samples; default: that of a GeoTIFF"});
   v("low", c.low_m, {.unit = "m", .meaning = "altitude of black in a PNG"});

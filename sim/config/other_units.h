@@ -5,7 +5,7 @@
 #include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
 
-/// Keys that give a value in another unit than the field's: `rpm` in `main_rotor` stands for `speed` in rad/s.
+/// Keys that give a value in another unit than the field's: `rpm` in `main_rotor` is its `speed`, which is in rad/s.
 namespace hedgehop::sim {
 
 /// Renames these keys in an input, before it overrides another, and converts their values.

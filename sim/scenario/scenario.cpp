@@ -49,6 +49,7 @@ void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   scenes::SceneAdditions& added = std::visit(
       [](auto& chosen) -> auto& { return chosen.added; }, scene);
   const auto resolve = [&root](std::string& file, const std::string& key) {
+    if (file.empty()) return;
     const std::filesystem::path folder = std::filesystem::path(position_of(root, key).file).parent_path();
     file = std::filesystem::absolute(folder / file).lexically_normal().string();
   };

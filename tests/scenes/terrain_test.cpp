@@ -146,6 +146,7 @@ TEST_F(Terrain, FaultsAreOneLine) {
   const auto fails = [this](const TerrainConfig& config, const std::string& why) {
     EXPECT_THAT([&] { open({}, config); }, ThrowsMessage<std::invalid_argument>(HasSubstr(why))) << config.heightmap;
   };
+  fails({}, "terrain.heightmap: is required");
   fails({.heightmap = "none.tif"}, "terrain.heightmap: 'none.tif': there is no such file");
   fails({.heightmap = write("degrees.tif", georeferenced(2))}, "its coordinates are degrees; valid: a projection in");
   fails({.heightmap = write("far.tif", georeferenced())},

@@ -48,6 +48,13 @@ class Axes {
   }
   x(value) { return this.frame.x + (value - this.xAxis.low) / (this.xAxis.high - this.xAxis.low) * this.frame.width; }
   y(value) { return this.frame.y + this.frame.height - (value - this.yAxis.low) / (this.yAxis.high - this.yAxis.low) * this.frame.height; }
+  /** Returns "x,y", the whole numbers of the axes nearest to a pixel. */
+  cellKey(px, py) {
+    const {xAxis, yAxis, frame} = this;
+    const x = Math.round(xAxis.low + (px - frame.x) / frame.width * (xAxis.high - xAxis.low));
+    const y = Math.round(yAxis.low + (frame.y + frame.height - py) / frame.height * (yAxis.high - yAxis.low));
+    return `${x},${y}`;
+  }
 
   draw() {
     const width = this.host.clientWidth, dpr = window.devicePixelRatio || 1;

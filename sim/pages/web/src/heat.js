@@ -50,19 +50,13 @@ class HeatMap {
       c.fillText(text, axes.x(x), axes.y(y));
     }
   }
-  cellAt(px, py) {
-    const {xAxis, yAxis, frame} = this.axes;
-    const x = Math.round(xAxis.low + (px - frame.x) / frame.width * (xAxis.high - xAxis.low));
-    const y = Math.round(yAxis.low + (frame.y + frame.height - py) / frame.height * (yAxis.high - yAxis.low));
-    return this.cells.get(x + ',' + y);
-  }
   lines(px, py) {
-    const cell = this.cellAt(px, py);
+    const cell = this.cells.get(this.axes.cellKey(px, py));
     return cell ? [`${this.choice.column}: ${short(cell.mean)}`, `${this.x.value}: ${this.xBins.words[cell.x]}`,
       `${this.y.value}: ${this.yBins.words[cell.y]}`, `${cell.points.length} point${cell.points.length === 1 ? '' : 's'}`] : null;
   }
   pick(px, py) {
-    const cell = this.cellAt(px, py);
+    const cell = this.cells.get(this.axes.cellKey(px, py));
     if (cell) this.on.choosePoint(cell.points[0]);
   }
 }

@@ -101,7 +101,7 @@ class ParallelView {
     });
   }
   at(px, py) {
-    let best = null, least = 8;
+    let nearest = null, nearest_px = 8;
     const k = this.axes.findIndex((_, index) => index + 1 < this.axes.length && px >= this.x(index) && px <= this.x(index + 1));
     if (k < 0) return null;
     const share = (px - this.x(k)) / (this.x(k + 1) - this.x(k));
@@ -109,9 +109,9 @@ class ParallelView {
       const [a, b] = [this.axes[k].of(i), this.axes[k + 1].of(i)];
       if (a === null || b === null) return;
       const d = Math.abs(this.y(k, a) * (1 - share) + this.y(k + 1, b) * share - py);
-      if (d < least) [least, best] = [d, i];
+      if (d < nearest_px) [nearest_px, nearest] = [d, i];
     });
-    return best;
+    return nearest;
   }
   hover(px, py) {
     const i = this.at(px, py);

@@ -91,21 +91,15 @@ class SuccessMap {
       c.fillText(text, axes.x(x), axes.y(y));
     }
   }
-  cellAt(px, py) {
-    const {xAxis, yAxis, frame} = this.axes;
-    const x = Math.round(xAxis.low + (px - frame.x) / frame.width * (xAxis.high - xAxis.low));
-    const y = Math.round(yAxis.low + (frame.y + frame.height - py) / frame.height * (yAxis.high - yAxis.low));
-    return this.cells.get(x + ',' + y);
-  }
   lines(px, py) {
-    const cell = this.cellAt(px, py);
+    const cell = this.cells.get(this.axes.cellKey(px, py));
     if (!cell) return null;
     const collided = cell.rows.filter((row) => this.table.verdict(row) === 'collided').length;
     return [`${cell.passed} of ${cell.ended} passed`, `${collided} collided`,
       `${this.x.value}: ${this.xBins.words[cell.x]}`, `${this.y.value}: ${this.yBins.words[cell.y]}`];
   }
   pick(px, py) {
-    const cell = this.cellAt(px, py);
+    const cell = this.cells.get(this.axes.cellKey(px, py));
     if (cell) this.on.choose(cell.rows.find((row) => this.table.verdict(row) !== 'passed') ?? cell.rows[0]);
   }
 }
