@@ -20,7 +20,7 @@ struct Mode {
 
 /// Returns the modes of a linear model, slowest first. A mode is named by the states that take part in it, and by the
 /// airspeed: below 1 m/s, slow oscillations are those of the hover cubics.
-/// Sources: names of [Padfield2007] sec. 4.3.3; participation factors of [PerezArriaga1982].
+/// Sources: names of [Padfield2007] sec. 4.3.3; participation factors of [PerezArriaga1982] pp. 3117-3125.
 std::vector<Mode> modes(const NamedLinearSystem& linear, double airspeed_mps);
 
 }  // namespace hedgehop::dynamics
