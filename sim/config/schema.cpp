@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = ConfigOutline::Kind;
 
-constexpr size_t kWorthSharing = 300;  // letters
+constexpr size_t kWorthSharing = 200;  // letters
 
 /// Calls `visit` with each direct part of `schema` and a name for it.
 template <class Visit>
