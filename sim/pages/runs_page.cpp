@@ -39,7 +39,7 @@ std::string text_of(const Node& map, std::string_view key) {
   return node && node->kind == Node::Kind::scalar ? node->text : "";
 }
 
-/// Adds module, tags and notes, which only the scenario of the run has.
+/// Adds module, tags and notes, which only the scenario of the run has. Without notes, its description is shown.
 void add_scenario(const fs::path& folder, Json& row) {
   for (const char* key : {"module", "notes"}) row[key] = "";
   row["tags"] = Json::array();

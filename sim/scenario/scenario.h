@@ -154,6 +154,8 @@ void describe(Visitor& v, fields::ConfigOf<FilmConfig> auto& c) {
 struct Scenario {
   std::string name;
   std::string description;
+  std::vector<std::string> tags;
+  std::string notes;
   uint64_t seed = 1;
   double duration_s = 60.0;
   std::optional<int64_t> physics_rate_hz;  ///< default: set_physics_rate()
@@ -182,6 +184,8 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("name", c.name, {.required = true, .meaning = "name in results and reports"});
   v("description", c.description, {.meaning = "purpose of the flight"});
+  v("tags", c.tags, {.meaning = "labels in the index of `hedgehop runs`; do not affect the flight"});
+  v("notes", c.notes, {.meaning = "remarks in the index of `hedgehop runs`; do not affect the flight"});
   v("seed", c.seed, {.meaning = "seed of every random stream of the flight"});
   v("duration", c.duration_s, {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "maximum flight time"});
   v("physics_rate", c.physics_rate_hz,
