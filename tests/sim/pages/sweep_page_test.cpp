@@ -8,6 +8,7 @@
 namespace hedgehop::sim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -132,7 +133,8 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
   HEDGEHOP_NEEDS_BROWSER();
   const CampaignFolder folder;
   const std::string quick = " --no-video --no-report --renderer tiles ";
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 3 --out all/b/run" + quick).status, 1);
+  const std::string words = " --set 'tags=[wind, first]' --set 'notes=gain < 2'";
+  ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 3 --out all/b/run" + quick + words).status, 1);
   ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 1 --out all/a" + quick).status, 1);
   ASSERT_LE(folder.hedgehop("batch tiny.yaml --seeds 5 --out all/batch").status, 1);
   ASSERT_EQ(folder.hedgehop("runs all").status, 0);
@@ -146,9 +148,11 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
     document.getElementById('filter').value = 'b/run';
     document.getElementById('filter').dispatchEvent(new Event('input'));
     seen.filtered = rows();
+    seen.text = document.querySelector('#runs tbody tr').textContent;
     return seen;)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.requests, IsEmpty());
+  EXPECT_THAT(page.value.at("text").get<std::string>(), AllOf(HasSubstr("wind"), HasSubstr("gain < 2")));
   EXPECT_EQ(page.value.at("rising"), (std::vector<std::string>{"1", "3"}));
   EXPECT_EQ(page.value.at("all"), (std::vector<std::string>{"1", "3", "5"}));
   EXPECT_EQ(page.value.at("filtered"), (std::vector<std::string>{"3"}));
