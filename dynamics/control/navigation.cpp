@@ -15,16 +15,21 @@ namespace {
 constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17, kBarometer = 18;
 
 constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: hover at the start
-constexpr double kGate = 9.0;                      // squared ratio of innovation to sigma above which the weight falls
-constexpr int kJumpReadings = 3;                   // agreeing readings required to accept another surface
-constexpr double kCoastAfterS = 1.0;               // time without a velocity or position, after which ...
-constexpr double kCoastSigmaMps = 3.0;             // ... the speed is assumed below about this, once per second
+constexpr double kMinSigma = 1e-8;        // of a reading or a noise density in SI units, assumed of exact sensors
+constexpr double kIllConditioned = 1e-6;  // variance of a reading over that of its innovation
+constexpr double kGate = 9.0;             // squared ratio of innovation to sigma above which the weight falls
+constexpr int kJumpReadings = 3;          // agreeing readings required to accept another surface
+constexpr double kCoastAfterS = 1.0;      // time without a velocity or position, after which ...
+constexpr double kCoastSigmaMps = 3.0;    // ... the speed is assumed below about this, once per second
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;
   m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
   return m;
 }
+
+/// Variance of a noise, with the floor that keeps the covariance positive with exact sensors.
+double floored_variance(double sigma) { return square(std::max(sigma, kMinSigma)); }
 
 Eigen::Quaterniond rotation(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.stableNormalized()));
@@ -125,8 +130,8 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
     P_.row(kBarometer) *= barometer_decay;
     P_.transposeInPlace();
   }
-  P_.diagonal().segment<3>(kTheta).array() += square(imu.gyro_noise_density) * dt_s_;
-  P_.diagonal().segment<3>(kV).array() += square(imu.accelerometer_noise_density) * dt_s_;
+  P_.diagonal().segment<3>(kTheta).array() += floored_variance(imu.gyro_noise_density) * dt_s_;
+  P_.diagonal().segment<3>(kV).array() += floored_variance(imu.accelerometer_noise_density) * dt_s_;
   P_.diagonal().segment<2>(kP).array() += square(config_.drift_mps_rt_hz) * dt_s_;
   P_.diagonal().segment<3>(kGyro).array() += square(sensors::gyro_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<3>(kAccelerometer).array() += square(sensors::accelerometer_wander(imu).added_sigma(dt_s_));
@@ -135,12 +140,20 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
 }
 
 /// Applies one scalar measurement. @param innovation  measured - predicted, from the state without `correction_`.
+/// A reading far more exact than its prediction is applied in Joseph's form, [Sola2017] sec. 6.1, which keeps the
+/// covariance positive. Otherwise the short form is equal within rounding.
 void Navigation::correct(const Row& H, double innovation, double variance) {
+  const double R = std::max(variance, square(kMinSigma));
   const Column PH = P_ * H.transpose();
-  const double S = H.dot(PH) + variance;
+  const double S = std::max(H.dot(PH), 0.0) + R;
   const Column K = PH / S;
   correction_ += K * (innovation - H.dot(correction_));
   P_.noalias() -= K * PH.transpose();
+  if (R > kIllConditioned * S) return;
+  // P - K H P so far; times (I - K H)', plus K R K'.
+  const Column rest = P_ * H.transpose();
+  P_ += (R * K - rest) * K.transpose();
+  P_ = (0.5 * (P_ + P_.transpose())).eval();
 }
 
 /// Moves the accumulated correction into the state. Source: [Sola2017] eqs. (282)-(283).

@@ -203,6 +203,48 @@ TEST(Navigation, CorrectionsDoNotRotateTheGyroAttitude) {
   EXPECT_GT(estimate.q_WB_est.angularDistance(rotated), 5.0 * estimate.q_WB_gyro.angularDistance(rotated));
 }
 
+/// Gives the sensors of a subset one standard deviation for all errors, in SI units.
+AvionicsConfig with_sensors_of(unsigned subset, double sigma) {
+  AvionicsConfig c;
+  c.barometer.enabled = true;
+  if (subset & 1u) {
+    for (double* const error : {&c.imu.gyro_noise_density, &c.imu.gyro_bias_walk, &c.imu.gyro_offset_radps,
+                                &c.imu.accelerometer_noise_density, &c.imu.accelerometer_bias_walk,
+                                &c.imu.accelerometer_offset_mps2, &c.imu.misalignment_rad}) {
+      *error = sigma;
+    }
+  }
+  if (subset & 2u) c.magnetometer.noise_rad = c.magnetometer.offset_rad = sigma;
+  if (subset & 4u) {
+    c.gps.noise_m = c.gps.velocity_noise_mps = c.gps.wander_horizontal_m = c.gps.wander_vertical_m = sigma;
+  }
+  if (subset & 8u) {
+    sensors::RangerConfig& ranger = c.height_sensor.ranger;
+    ranger.noise_m = ranger.noise_per_range = ranger.offset_m = ranger.dropout = sigma;
+  }
+  if (subset & 16u) c.barometer.noise_pa = c.barometer.wander_pa = sigma;
+  return c;
+}
+
+TEST(Navigation, EverySubsetOfExactSensorsFliesLikeANoiseOf1em8) {
+  constexpr double kApartM = 1e-3;  // closed loops keep the effect of a noise of 1e-8 below this
+  for (const bool flow : {true, false}) {
+    for (unsigned subset = 1; subset < 32; ++subset) {
+      Loop exact, noisy;
+      exact.vehicle = noisy.vehicle = multicopter::MulticopterConfig();
+      exact.avionics = with_sensors_of(subset, 0.0);
+      noisy.avionics = with_sensors_of(subset, 1e-8);
+      exact.flow_sigma = noisy.flow_sigma = flow ? 0.1 : 0.0;
+      const auto by_exact = flights(exact, 10, 14.0, square), by_noisy = flights(noisy, 10, 14.0, square);
+      for (size_t seed = 0; seed < by_exact.size(); ++seed) {
+        const Sample &a = by_exact[seed].back(), &b = by_noisy[seed].back();
+        EXPECT_LT((a.body.p_WB - b.body.p_WB).norm(), kApartM) << "subset " << subset << " seed " << seed;
+        EXPECT_NEAR(a.body.p_WB.z(), -10.0, 3.0) << "subset " << subset << " seed " << seed;
+      }
+    }
+  }
+}
+
 TEST(Navigation, EstimatesTheGyroBias) {
   Navigation filter({}, {});
   Alignment rough = level_alignment();
