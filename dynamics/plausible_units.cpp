@@ -48,6 +48,19 @@ void require_tip_speed(const char* key, const char* rpm_key, double speed_radps,
       key, text("%.6g: tip speed %.4g m/s", speed_radps, tip_mps) + (advice.empty() ? ", faster than sound" : advice));
 }
 
+void require_chord(const char* key, double chord_m, double radius_m) {
+  if (!(chord_m > radius_m)) return;
+  std::string advice;
+  constexpr std::pair<const char*, double> kUnits[] = {{"cm", 0.01}, {"mm", 0.001}};
+  for (const auto& [unit, meters] : kUnits) {
+    constexpr double kWideBlade = 0.25;  // of the radius
+    if (advice.empty() && chord_m * meters < kWideBlade * radius_m) {
+      advice = text("; a chord of %.4g %s is %.4g m", chord_m, unit, chord_m * meters);
+    }
+  }
+  throw fields::InvalidField(key, text("%.4g m: longer than the rotor's radius of %.4g m", chord_m, radius_m) + advice);
+}
+
 /// @param size_m  radius of a sphere about the mass center that contains the vehicle.
 void require_inertia(const MassConfig& mass, double size_m) {
   const double largest = mass.inertia_kgm2.maxCoeff();
@@ -72,6 +85,8 @@ void require_inertia(const MassConfig& mass, double size_m) {
 
 void require_plausible_units(const helicopter::HelicopterConfig& config) {
   require_tip_speed("main_rotor.speed", "rpm", config.main_rotor.speed_radps, config.main_rotor.radius_m);
+  require_chord("main_rotor.chord", config.main_rotor.chord_m, config.main_rotor.radius_m);
+  require_chord("tail_rotor.chord", config.tail_rotor.chord_m, config.tail_rotor.radius_m);
   const double reach_m = config.tail_rotor.arm_m + config.tail_rotor.radius_m;
   require_inertia(config.mass, std::max(config.main_rotor.radius_m, reach_m));
 }

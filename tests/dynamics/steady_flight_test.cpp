@@ -68,6 +68,7 @@ TEST(PlausibleUnits, RecognizeMillimetersGramsAndInertiasOfOtherUnits) {
     return refusal(config);
   };
   EXPECT_THAT(changed([](auto& c) { c.main_rotor.radius_m = 775.0; }), HasSubstr("a radius of 775 mm is 0.775 m"));
+  EXPECT_THAT(changed([](auto& c) { c.main_rotor.chord_m = 58.0; }), HasSubstr("a chord of 58 mm is 0.058 m"));
   EXPECT_THAT(changed([](auto& c) { c.mass.mass_kg = 8200.0; }), HasSubstr("a mass of 8200 g is 8.2 kg"));
   EXPECT_THAT(changed([](auto& c) { c.mass.inertia_kgm2 *= 1e4; }), HasSubstr("3400 kg cm2 is 0.34 kg m2"));
   EXPECT_THAT(changed([](auto& c) {
