@@ -123,11 +123,12 @@ void Cameras::sense(size_t camera, const Instant& now, bool dead, cv::Mat& out) 
     return;
   }
   draw(camera, channels_[camera], now, now, out);
+  imperfections_[camera].expose(out);
   imperfections_[camera].apply(image_number(camera, now.t_ns), out);
   if (dead) blank(out);
 }
 
-cv::Mat Cameras::image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next) {
+cv::Mat Cameras::image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next) const {
   cv::Mat image;
   draw(camera, channel, now, next, image);
   if (channel == ImageChannel::grey || channel == ImageChannel::color) {
@@ -136,7 +137,7 @@ cv::Mat Cameras::image(size_t camera, ImageChannel channel, const Instant& now, 
   return image;
 }
 
-cv::Mat Cameras::moving(size_t camera, const Instant& now) {
+cv::Mat Cameras::moving(size_t camera, const Instant& now) const {
   return image(camera, ImageChannel::labels, now, now) >= first_mover_label_;
 }
 
@@ -156,7 +157,7 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   return (body.w_WB_B.norm() + passing_radps) / pixel_angle_rad(mounted.model);
 }
 
-void Cameras::draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out) {
+void Cameras::draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out) const {
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const auto draw_rows = [&](const Eigen::Isometry3d& X_WB, double dt_s, const cv::Range& rows, cv::Mat& image) {
     const bool whole = rows.size() == mounted.model.height_px;

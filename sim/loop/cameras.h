@@ -72,11 +72,12 @@ class Cameras {
     BodyMotion body;
   };
   /// One camera's image of an instant in a channel of the caller's choice, with the shutter's and the sensor's
-  /// imperfections. @param next  second instant of the optic flow, for ImageChannel::flow.
-  cv::Mat image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next);
+  /// imperfections, at the present gain of automatic exposure. @param next  second instant of the optic flow, for
+  /// ImageChannel::flow.
+  cv::Mat image(size_t camera, ImageChannel channel, const Instant& now, const Instant& next) const;
 
   /// CV_8UC1: 255 for pixels of moving objects, else 0.
-  cv::Mat moving(size_t camera, const Instant& now);
+  cv::Mat moving(size_t camera, const Instant& now) const;
 
   /// Returns the calibrated camera, for onboard use.
   const avoidance::MountedCamera& mounted(size_t camera) const { return mounted_[camera]; }
@@ -89,7 +90,7 @@ class Cameras {
   Imperfections::FrameFault frame_fault(size_t camera, int64_t t_ns) const;
   int64_t image_number(size_t camera, int64_t t_ns) const { return ticks_.tick(t_ns) / periods_[camera]; }
   void sense(size_t camera, const Instant& now, bool dead, cv::Mat& out);
-  void draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out);
+  void draw(size_t camera, ImageChannel channel, const Instant& now, const Instant& next, cv::Mat& out) const;
   double image_speed_pxps(size_t camera, const Instant& now) const;
 
   const Ticks ticks_;

@@ -30,15 +30,13 @@ Imperfections::FrameFault Imperfections::frame_fault(int64_t frame) const {
   return FrameFault::none;
 }
 
-void Imperfections::apply(int64_t frame, cv::Mat& image) {
+void Imperfections::apply(int64_t frame, cv::Mat& image) const {
   if (image.type() == CV_32FC1 && config_.disparity_noise_px > 0.0) return apply_to_depth(frame, image);
   const bool noisy = config_.full_well > 0.0 || config_.read_noise > 0.0;
   const bool exposed = config_.exposure_stops != 0.0 || config_.auto_exposure_s > 0.0;
-  const bool uneven = config_.vignetting > 0.0 || config_.fixed_pattern > 0.0;
-  if (image.depth() != CV_8U || (!noisy && !exposed && !uneven)) return;
+  if (image.depth() != CV_8U || (!noisy && !exposed && !is_uneven())) return;
 
-  const cv::Mat response = uneven ? response_for(image) : cv::Mat();
-  if (config_.auto_exposure_s > 0.0) expose_automatically(image, response);
+  const cv::Mat response = is_uneven() ? response_for(image) : cv::Mat();
   std::optional<LevelNoise> noise;
   if (noisy) {
     // Photon counts have a Poisson distribution: the variance is the mean.
@@ -49,7 +47,7 @@ void Imperfections::apply(int64_t frame, cv::Mat& image) {
   read_out(response, gain_, noise, image);
 }
 
-void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
+void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) const {
   const double disparity_m_px = focal_px_ * ImperfectionsConfig::kBaselineM;  // disparity times depth
   cv::divide(disparity_m_px, depth_m, levels_);                               // 0 for the sky, NaN stays NaN
   noise_.create(levels_.size(), levels_.type());
@@ -67,7 +65,7 @@ void Imperfections::apply_to_depth(int64_t frame, cv::Mat& depth_m) {
 }
 
 /// Returns the response of each pixel to light: the transmittance of the lens times the pixel's gain.
-const cv::Mat& Imperfections::response_for(const cv::Mat& image) {
+const cv::Mat& Imperfections::response_for(const cv::Mat& image) const {
   const cv::Size size = image.size();
   const int type = CV_32FC(image.channels());
   if (response_.size() == size && response_.type() == type) return response_;
@@ -93,9 +91,10 @@ const cv::Mat& Imperfections::response_for(const cv::Mat& image) {
 }
 
 /// Applies a first-order lag of the logarithm of the gain toward the gain for a mid-grey mean.
-void Imperfections::expose_automatically(const cv::Mat& image, const cv::Mat& response) {
+void Imperfections::expose(const cv::Mat& image) {
+  if (image.depth() != CV_8U || config_.auto_exposure_s <= 0.0) return;
   image.convertTo(levels_, CV_32F);
-  if (!response.empty()) cv::multiply(levels_, response, levels_);
+  if (is_uneven()) cv::multiply(levels_, response_for(image), levels_);
   const cv::Scalar sums = cv::mean(levels_);
   double mean = 0.0;
   for (int channel = 0; channel < image.channels(); ++channel) mean += sums[channel] / image.channels();

@@ -7,8 +7,8 @@
 
 namespace hedgehop::sim {
 
-/// Degrades one camera's images as configured. The result depends on the image's number and the camera's seed
-/// alone (automatic exposure aside, which follows the images before it).
+/// Degrades one camera's images as configured. The result depends on the image's number and the camera's seed, and on
+/// the gain of automatic exposure, which only expose() changes.
 class Imperfections {
  public:
   /// @param period_s  between images, > 0. @param seed  of the camera's own stream. @param focal_px  of the lens, > 0;
@@ -19,23 +19,26 @@ class Imperfections {
   enum class FrameFault { none, dropped, frozen, black };
   FrameFault frame_fault(int64_t frame) const;
 
+  /// Adapts automatic exposure to an image that the sensor takes. apply() must follow. @param image  CV_8U; others have
+  /// no exposure.
+  void expose(const cv::Mat& image);
   /// Applies vignetting and pixel gains, exposure, photon noise and read noise, in this physical order; grey levels are
   /// proportional to light. To depth it applies disparity noise; a disparity of 0 or less becomes infinite depth.
   /// @param image  CV_8U, or CV_32FC1 of depth, z in C, m, NaN unknown; others are left as they are.
-  void apply(int64_t frame, cv::Mat& image);
+  void apply(int64_t frame, cv::Mat& image) const;
 
  private:
-  void apply_to_depth(int64_t frame, cv::Mat& depth_m);
-  const cv::Mat& response_for(const cv::Mat& image);
-  void expose_automatically(const cv::Mat& image, const cv::Mat& response);
+  bool is_uneven() const { return config_.vignetting > 0.0 || config_.fixed_pattern > 0.0; }
+  void apply_to_depth(int64_t frame, cv::Mat& depth_m) const;
+  const cv::Mat& response_for(const cv::Mat& image) const;
 
   ImperfectionsConfig config_;
   double period_s_;
   uint64_t seed_;
   double focal_px_;
   double gain_;
-  cv::Mat response_;        ///< CV_32F, as many channels as the image
-  cv::Mat levels_, noise_;  ///< CV_32F
+  mutable cv::Mat response_;        ///< CV_32F, as many channels as the image; a cache
+  mutable cv::Mat levels_, noise_;  ///< CV_32F; scratch
 };
 
 /// Sets an image to the output of a dead sensor: 0 in 8 bits, NaN (unknown) in floats.

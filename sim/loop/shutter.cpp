@@ -23,7 +23,8 @@ Eigen::Isometry3d BodyMotion::X_WB_after(double dt_s) const {
   return X;
 }
 
-void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out) {
+void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw,
+                     cv::Mat& out) const {
   if (config_.readout_s <= 0.0 && config_.shutter_s <= 0.0) {
     draw(body.X_WB, 0.0, {0, rows}, out);
     return;
@@ -47,7 +48,7 @@ void Shutter::expose(const BodyMotion& body, double image_speed_pxps, int rows, 
 }
 
 void Shutter::expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows,
-                           const DrawRows& draw, cv::Mat& out) {
+                           const DrawRows& draw, cv::Mat& out) const {
   for (int k = 0; k < moments; ++k) {
     const double dt_s = end_s - config_.shutter_s * (k + 0.5) / moments;
     draw(body.X_WB_after(dt_s), dt_s, rows, out);

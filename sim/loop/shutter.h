@@ -34,14 +34,14 @@ class Shutter {
 
   /// @param image_speed_pxps  maximum speed of points in the image, >= 0. @param rows  of the image. @param out  the
   /// image, of the type that `draw` gives: of 8 bits if the image moves.
-  void expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out);
+  void expose(const BodyMotion& body, double image_speed_pxps, int rows, const DrawRows& draw, cv::Mat& out) const;
 
  private:
   void expose_strip(const BodyMotion& body, double end_s, int moments, const cv::Range& rows, const DrawRows& draw,
-                    cv::Mat& out);
+                    cv::Mat& out) const;
 
   ImperfectionsConfig config_;
-  cv::Mat strip_, sums_;
+  mutable cv::Mat strip_, sums_;  ///< scratch
 };
 
 /// Returns the camera that shows some rows of another camera's image.

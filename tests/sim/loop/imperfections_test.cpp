@@ -108,14 +108,33 @@ TEST(Imperfections, AutomaticExposureSettlesToMidGreyInItsTimeConstant) {
   cv::Mat image;
   for (int frame = 0; frame < 10; ++frame) {
     image = flat(40.0);
+    camera.expose(image);
     camera.apply(frame, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5 * std::pow(40.0 / 127.5, std::exp(-1.0)), 0.5 + 1e-6);  // rounding to levels
   for (int frame = 10; frame < 200; ++frame) {
     image = flat(40.0);
+    camera.expose(image);
     camera.apply(frame, image);
   }
   EXPECT_NEAR(mean_of(image), 127.5, 0.5 + 1e-6);
+}
+
+TEST(Imperfections, ObserversDoNotAdvanceTheExposure) {
+  ImperfectionsConfig config;
+  config.auto_exposure_s = 0.2;
+  Imperfections watched(config, kPeriodS, 1), alone(config, kPeriodS, 1);
+  cv::Mat a, b;
+  for (int frame = 0; frame < 10; ++frame) {
+    a = flat(40.0), b = flat(40.0);
+    for (int look = 0; look < 3; ++look) {
+      cv::Mat seen = flat(200.0);
+      watched.apply(frame, seen);
+    }
+    watched.expose(a), watched.apply(frame, a);
+    alone.expose(b), alone.apply(frame, b);
+  }
+  EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0.0);
 }
 
 TEST(Imperfections, EqualSeedsGiveEqualNoiseAndEveryImageItsOwn) {

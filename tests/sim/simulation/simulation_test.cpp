@@ -61,6 +61,18 @@ TEST(Simulation, LookingOnDoesNotChangeTheFlight) {
   EXPECT_EQ(watcher.seconds, 5);
 }
 
+TEST(Simulation, ImagesForAnObserverDoNotChangeTheFlight) {
+  const auto hash = [](bool observed) {
+    Simulation simulation(short_city({"duration=2", "rig.cameras.0.imperfections.auto_exposure=0.5"}));
+    const std::string role = simulation.scenario().rig.cameras.front().role;
+    while (simulation.step()) {
+      if (observed) simulation.image(role, ImageChannel::grey);
+    }
+    return simulation.result().result.trajectory_hash;
+  };
+  EXPECT_EQ(hash(true), hash(false));
+}
+
 TEST(Simulation, ResolvedScenarioFliesTheSameFlight) {
   const Scenario scenario = short_city();
   const auto file = std::filesystem::path(testing::TempDir()) / "resolved.yaml";
