@@ -42,8 +42,10 @@ bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
   constexpr double kClearM = 0.5, kCellM = 0.5, kMarginM = 20.0;
   if (!scenario.goal) return true;
   const double radius_m = dynamics::radius_m(dynamics::hull(scenario.vehicle)) + kClearM;
-  const auto is_free = [&](const Vector2d& p_NE_m) {
-    return std::ranges::all_of(boxes, [&](const BoxConfig& box) { return plan_distance_m(box, p_NE_m) > radius_m; });
+  const auto clearance_m = [&](const Vector2d& p_NE_m) {
+    double min_m = std::numeric_limits<double>::infinity();
+    for (const BoxConfig& box : boxes) min_m = std::min(min_m, plan_distance_m(box, p_NE_m) - radius_m);
+    return min_m;
   };
   std::vector<Vector2d> places{scenario.start.p_WB().head<2>()};
   for (const GoalConfig& place : scenario.route) places.emplace_back(place.p_WG().head<2>());
@@ -55,7 +57,7 @@ bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
   }
   bounds = {bounds.min().array() - kMarginM, bounds.max().array() + kMarginM};
   for (size_t i = 1; i < places.size(); ++i) {
-    if (!shortest_path_m(places[i - 1], places[i], bounds, kCellM, is_free)) return false;
+    if (!shortest_path_m(places[i - 1], {places[i], 0.0}, bounds, kCellM, clearance_m)) return false;
   }
   return true;
 }

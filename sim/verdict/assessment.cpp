@@ -66,6 +66,7 @@ std::string closest_to_goal(const Evidence& e) {
   return fmt::format("distance at the end; minimum {:.1f} m at {:.1f} s", -closest.value, *closest.t_s);
 }
 
+/// A failed reached_goal shows the figure that fails, never one that satisfies its bound.
 CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
   const FlightResult& result = e.flight.result;
   const std::string name{ReachedGoalCheck::kName};
@@ -81,8 +82,15 @@ CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
   }
   if (near && result.flight_time_s > before_s)
     return {name, false, result.flight_time_s, before_s, "s", "<=", {}, "time at the goal"};
-  const bool reached = near && result.outcome == Outcome::reached;
-  return {name, reached, *result.goal_distance_m, within_m, "m", "<=", {}, reached ? "" : closest_to_goal(e)};
+  if (near && result.outcome == Outcome::collided) {
+    const ClosestApproach& nearest = closer(result.closest_obstacle, result.closest_ground);
+    return {name, false, nearest.distance_m, 0.0, "m", ">", moment(nearest), "clearance: collision at the goal"};
+  }
+  if (near && result.outcome == Outcome::fault)
+    return {name, false, kNaN, within_m, "m", "<=", {}, "the flight ended with a fault at the goal"};
+  if (near && result.outcome == Outcome::timeout && !e.scenario.route.empty())
+    return {name, false, kNaN, within_m, "m", "<=", {}, "the route before the goal was not completed"};
+  return {name, near, *result.goal_distance_m, within_m, "m", "<=", {}, near ? "" : closest_to_goal(e)};
 }
 
 CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {

@@ -61,6 +61,35 @@ TEST(Checks, ReachedGoalNeedsDistanceTimeAndOutcome) {
   EXPECT_FALSE(f.evaluate(ReachedGoalCheck{}).passed);
 }
 
+/// A value next to FAIL must violate its own bound.
+TEST(Checks, AFailedReachedGoalNeverShowsAValueThatHolds) {
+  StraightFlight f;
+  f.flight.result.closest_obstacle.distance_m = -0.01;
+  const GoalConfig before_goal;
+  for (const Outcome outcome : {Outcome::reached, Outcome::collided, Outcome::timeout, Outcome::fault}) {
+    for (const double distance_m : {1.0, 7.0, 30.0}) {
+      for (const double altitude_m : {f.scenario.goal->altitude_m, 30.0}) {
+        for (const size_t waypoints : {0, 1}) {
+          StraightFlight one = f;
+          one.flight.result.outcome = outcome;
+          one.flight.result.goal_distance_m = distance_m;
+          one.scenario.goal->altitude_m = altitude_m;
+          one.scenario.route.assign(waypoints, before_goal);
+          for (const ReachedGoalCheck& check :
+               {ReachedGoalCheck{}, ReachedGoalCheck{.within_m = 10.0, .before_s = 19.0},
+                ReachedGoalCheck{.within_m = 10.0}}) {
+            const CheckResult result = one.evaluate(check);
+            const bool holds = result.must == ">"    ? result.value > result.limit
+                               : result.must == ">=" ? result.value >= result.limit
+                                                     : result.value <= result.limit;
+            EXPECT_EQ(result.passed, holds) << to_string(outcome) << ' ' << distance_m << ' ' << result.cause;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Checks, ReachedGoalFailsWithoutAGoal) {
   StraightFlight f;
   f.scenario.goal.reset();
