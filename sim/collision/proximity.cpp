@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "sim/collision/convex_body.h"
 #include "sim/collision/solid_bodies.h"
+#include "sim/collision/surface_tree.h"
 #include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
@@ -39,16 +41,23 @@ class CollisionWorld::World {
     for (const HullPart& part : hull) {
       parts_.push_back({make_body(part, "hull part " + std::to_string(parts_.size())), part.center_B_m});
     }
+    size_t id = 0;
     for (size_t i = 0; i < scenes::solid_count(scene); ++i) {
-      for (PosedBody& body : make_bodies(scenes::solid_at(scene, i))) {
+      const Solid& solid = scenes::solid_at(scene, i);
+      require_valid(solid);
+      first_id_.push_back(id);
+      if (i < scene.solids.size() && solid.shape == Solid::Shape::surface) {
+        add_surface(solid, id);
+        id += solid.polyhedron.faces.size();
+        continue;
+      }
+      for (PosedBody& body : make_bodies(solid)) {
         bodies_.push_back(std::move(body));
-        solid_of_.push_back(i);
+        id_of_.push_back(id++);
       }
     }
-    for (static_count_ = 0; static_count_ < bodies_.size() && solid_of_[static_count_] < scene.solids.size();
-         ++static_count_) {
-      place_static();
-    }
+    surfaces_.build();
+    while (placed_.size() < bodies_.size() && solid_of(id_of_[placed_.size()]) < scene.solids.size()) place_static();
     grow_tree();
     place_moving(scene);
   }
@@ -56,24 +65,28 @@ class CollisionWorld::World {
   Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
     place_hull(X_WB);
     NearestBody nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
+    const auto reach_m = [&] { return std::max(nearest.clearance_m, 0.0) + kClosedFormErrorM; };
+    const auto consider_other = [&](size_t id, const PlacedBody& body) {
+      if (id != last_nearest_) consider(id, body, nearest);
+    };
 
     // The previously nearest solid is still close: its distance reduces the search without changing the result.
-    if (last_nearest_) consider(*last_nearest_, placed_[*last_nearest_], nearest);
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(nearest.clearance_m, 0.0) + kClosedFormErrorM);
-    visit_static(hull_box_W_.min() - reach, hull_box_W_.max() + reach, [&](size_t index) {
-      if (index != last_nearest_) consider(index, placed_[index], nearest);
-    });
-    if (nearest.body) last_nearest_ = nearest.body;
+    if (last_nearest_) consider_last(*last_nearest_, nearest);
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reach_m());
+    visit_static(hull_box_W_.min() - reach, hull_box_W_.max() + reach,
+                 [&](size_t index) { consider_other(id_of_[index], placed_[index]); });
+    surfaces_.visit_near(hull_box_W_, reach_m, consider_other);
+    if (nearest.id) last_nearest_ = nearest.id;
     for (const MoverBodies& mover_bodies : movers_) {
       const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
       for (size_t k = 0; k < mover_bodies.count; ++k)
-        consider(mover_bodies.first + k, placed(mover_bodies, k, p_WM), nearest);
+        consider(id_of_[mover_bodies.first + k], placed(mover_bodies, k, p_WM), nearest);
     }
 
     Proximity result;
-    if (nearest.body) {
+    if (nearest.id) {
       result.obstacle_clearance_m = nearest.clearance_m;
-      result.nearest_solid = solid_of_[*nearest.body];
+      result.nearest_solid = solid_of(*nearest.id);
       result.nearest_point_W = nearest.point_W;
     }
     if (has_ground_) result.ground_clearance_m = ground_clearance();
@@ -86,6 +99,9 @@ class CollisionWorld::World {
     const Eigen::Vector3d lowest_W(p_WB.x(), p_WB.y(), std::max(p_WB.z(), lowest_z_));
     visit_static(p_WB, lowest_W,
                  [&](size_t index) { height_m = std::min(height_m, height_above(p_WB, placed_[index])); });
+    surfaces_.visit_along(p_WB, lowest_W, [&](size_t, const PlacedBody& body) {
+      height_m = std::min(height_m, height_above(p_WB, body));
+    });
     for (const MoverBodies& mover_bodies : movers_) {
       const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
       if ((p_WB - p_WM).head<2>().norm() > mover_bodies.radius_m) continue;
@@ -103,7 +119,9 @@ class CollisionWorld::World {
       nearest_m = std::min(nearest_m, body.body->ray_length(body.X_SW * p_W, body.X_SW.linear() * direction_W));
     };
     Collector collector([&](size_t index) { meet(placed_[index]); });
-    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(p_W + reach_m * direction_W), collector);
+    const Eigen::Vector3d end_W = p_W + reach_m * direction_W;
+    btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
+    surfaces_.visit_along(p_W, end_W, [&](size_t, const PlacedBody& body) { meet(body); });
     for (const MoverBodies& mover_bodies : movers_) {
       const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
       for (size_t k = 0; k < mover_bodies.count; ++k) meet(placed(mover_bodies, k, p_WM));
@@ -126,9 +144,21 @@ class CollisionWorld::World {
 
   struct NearestBody {
     double clearance_m;
-    std::optional<size_t> body;
+    std::optional<size_t> id;
     Eigen::Vector3d point_W;
   };
+
+  // Returns the index of the solid of a body or triangle.
+  size_t solid_of(size_t id) const {
+    return static_cast<size_t>(std::ranges::upper_bound(first_id_, id) - first_id_.begin()) - 1;
+  }
+
+  void add_surface(const Solid& solid, size_t first_id) {
+    surfaces_.add(solid, first_id);
+    for (const Eigen::Vector3d& corner : solid.polyhedron.corners) {
+      lowest_z_ = std::max(lowest_z_, (solid.X_WS * corner).z());
+    }
+  }
 
   // Places the next static body.
   void place_static() {
@@ -141,8 +171,8 @@ class CollisionWorld::World {
     return placed_.emplace_back(next.body, next.X_WS);
   }
 
-  // Adds the static bodies to the tree in a scattered order: the triangles of a terrain in their own order would make a
-  // tree as deep as their number.
+  // Adds the static bodies to the tree in a scattered order: neighbors in order would make a tree as deep as their
+  // number.
   void grow_tree() {
     const size_t count = placed_.size();
     size_t step = static_cast<size_t>(0.618 * static_cast<double>(count)) + 1;
@@ -162,7 +192,7 @@ class CollisionWorld::World {
       scenes::require_motion(mover.motion);
       MoverBodies& mover_bodies = movers_.emplace_back(MoverBodies{mover.motion, placed_.size()});
       solid_index += mover.solids.size();
-      for (; placed_.size() < bodies_.size() && solid_of_[placed_.size()] < solid_index; ++mover_bodies.count) {
+      for (; placed_.size() < bodies_.size() && solid_of(id_of_[placed_.size()]) < solid_index; ++mover_bodies.count) {
         const PlacedBody& body = place_next();
         const double out_m = body.X_WS.translation().norm() + body.body->bounding_radius_m;
         mover_bodies.radius_m = std::max(mover_bodies.radius_m, out_m);
@@ -187,8 +217,14 @@ class CollisionWorld::World {
     }
   }
 
-  // Updates `nearest` if this body is nearer. Of equally near bodies, the lower index counts in any order.
-  void consider(size_t index, const PlacedBody& body, NearestBody& nearest) const {
+  void consider_last(size_t id, NearestBody& nearest) const {
+    const auto consider_it = [&](size_t, const PlacedBody& body) { consider(id, body, nearest); };
+    if (surfaces_.has(id)) return surfaces_.visit_one(id, consider_it);
+    consider_it(id, placed_[static_cast<size_t>(std::ranges::lower_bound(id_of_, id) - id_of_.begin())]);
+  }
+
+  // Updates `nearest` if this body is nearer. Of equally near bodies, the lower id counts in any order.
+  void consider(size_t id, const PlacedBody& body, NearestBody& nearest) const {
     for (const PlacedBody& part : placed_parts_) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
       const double part_radius_m = part.body->bounding_radius_m + kClosedFormErrorM;
@@ -199,9 +235,9 @@ class CollisionWorld::World {
 
       const Separation found = separate(part, body);
       const bool first_of_equals =
-          found.distance_m == nearest.clearance_m && index < nearest.body.value_or(bodies_.size());
+          found.distance_m == nearest.clearance_m && id < nearest.id.value_or(std::numeric_limits<size_t>::max());
       if (found.distance_m < nearest.clearance_m || first_of_equals) {
-        nearest = {found.distance_m, index, found.on_second_W};
+        nearest = {found.distance_m, id, found.on_second_W};
       }
     }
   }
@@ -230,14 +266,16 @@ class CollisionWorld::World {
 
   bool has_ground_;
   std::vector<PartBody> parts_;
-  std::vector<PosedBody> bodies_;   // of the solids in order, then those of the movers
-  std::vector<size_t> solid_of_;    // index of each body's solid
-  std::vector<PlacedBody> placed_;  // in W; from static_count_ on in M
-  size_t static_count_ = 0;         // bodies that do not move
+  // Bodies and triangles have ids in the order of their solids, then of those of the movers.
+  std::vector<size_t> first_id_;    // of each solid
+  std::vector<PosedBody> bodies_;   // in that order, without the triangles of surfaces that do not move
+  std::vector<size_t> id_of_;       // of each body
+  std::vector<PlacedBody> placed_;  // in W; those of movers in M
+  SurfaceTree surfaces_;
   std::vector<MoverBodies> movers_;
-  btDbvt tree_;                   // of static bodies
-  double lowest_z_ = -kInfinity;  // of static bodies, in W
-  std::optional<size_t> last_nearest_;
+  btDbvt tree_;                         // of static bodies
+  double lowest_z_ = -kInfinity;        // of static bodies and surfaces, in W
+  std::optional<size_t> last_nearest_;  // id
 
   // The hull at the pose of the present query.
   std::vector<PlacedBody> placed_parts_;

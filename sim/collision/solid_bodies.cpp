@@ -29,8 +29,9 @@ void require_polyhedron(const scenes::mesh::Polyhedron& polyhedron, bool convex,
     const Eigen::Vector3d a = polyhedron.corners[face[0]];
     const Eigen::Vector3d n = (polyhedron.corners[face[1]] - a).cross(polyhedron.corners[face[2]] - a);
     if (n.norm() == 0.0) refuse("a face has no area");
+    if (!convex) continue;
     for (const Eigen::Vector3d& corner : polyhedron.corners) {
-      if (convex && n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, with outward faces");
+      if (n.normalized().dot(corner - a) > kRoundingM) refuse("a hull must be convex, with outward faces");
     }
   }
   if (convex && polyhedron.faces.size() < 4) refuse("a hull needs at least 4 faces");
@@ -48,33 +49,38 @@ ConvexBody make_body(const HullPart& part, const std::string& name) {
   return {ConvexBody::Shape::cylinder, part.half_extents_m};
 }
 
-std::vector<PosedBody> make_bodies(const Solid& solid) {
+void require_valid(const Solid& solid) {
   const std::string name = "solid '" + solid.name + "'";
   if (!solid.X_WS.matrix().allFinite()) throw std::invalid_argument(name + ": the pose must be finite");
+  const Eigen::Vector3d& half_m = solid.half_extents_m;
+  const bool is_polyhedron = solid.shape == Solid::Shape::hull || solid.shape == Solid::Shape::surface;
+  if (is_polyhedron) return require_polyhedron(solid.polyhedron, solid.shape == Solid::Shape::hull, name);
+  require_extents(half_m, name);
+  if (solid.shape == Solid::Shape::cylinder && half_m.x() != half_m.y()) {
+    throw std::invalid_argument(name + ": a cylinder's first two half extents differ");
+  }
+  if (solid.shape == Solid::Shape::sphere && half_m.minCoeff() != half_m.maxCoeff()) {
+    throw std::invalid_argument(name + ": a sphere's half extents differ");
+  }
+}
+
+std::vector<PosedBody> make_bodies(const Solid& solid) {
   const Eigen::Vector3d& half_m = solid.half_extents_m;
   std::vector<PosedBody> bodies;
   switch (solid.shape) {
     case Solid::Shape::box:
-      require_extents(half_m, name);
       bodies.push_back({{ConvexBody::Shape::box, half_m}, solid.X_WS});
       break;
     case Solid::Shape::cylinder:
-      require_extents(half_m, name);
-      if (half_m.x() != half_m.y()) throw std::invalid_argument(name + ": a cylinder's first two half extents differ");
       bodies.push_back({{ConvexBody::Shape::cylinder, half_m}, solid.X_WS});
       break;
     case Solid::Shape::sphere:
-      require_extents(half_m, name);
-      if (half_m.minCoeff() != half_m.maxCoeff())
-        throw std::invalid_argument(name + ": a sphere's half extents differ");
       bodies.push_back({{ConvexBody::Shape::sphere, half_m}, solid.X_WS});
       break;
     case Solid::Shape::hull:
-      require_polyhedron(solid.polyhedron, true, name);
       bodies.push_back({ConvexBody(solid.polyhedron), solid.X_WS});
       break;
     case Solid::Shape::surface:
-      require_polyhedron(solid.polyhedron, false, name);
       for (const auto& [a, b, c] : solid.polyhedron.faces) {
         const std::vector<Eigen::Vector3d>& corners = solid.polyhedron.corners;
         const Eigen::Vector3d center = (corners[a] + corners[b] + corners[c]) / 3.0;

@@ -21,10 +21,12 @@ struct PosedBody {
   Eigen::Isometry3d X_WS;
 };
 
-/// Returns the bodies of a solid: one, or each triangle of a surface.
 /// Throws std::invalid_argument that names the solid if its pose or an extent is not finite or out of range, radii that
 /// must be equal differ, or a polyhedron has no faces, a corner index out of range, a face without area or, as a hull,
 /// is not convex.
+void require_valid(const scenes::Solid& solid);
+
+/// Returns the bodies of a valid solid: one, or each triangle of a surface.
 std::vector<PosedBody> make_bodies(const scenes::Solid& solid);
 
 }  // namespace hedgehop::sim
