@@ -109,13 +109,30 @@ bool announces_too_much(std::string_view ply) {
   return elements > static_cast<double>(ply.size());
 }
 
+uint32_t number_at(std::string_view file, size_t at) {
+  uint32_t number = 0;
+  std::copy_n(file.data() + at, sizeof number, reinterpret_cast<char*>(&number));
+  return number;
+}
+
 /// Returns the JSON of a binary glTF: its first chunk, after the file's header of 12 bytes and the chunk's of 8.
 std::string_view json_of_glb(std::string_view file) {
   constexpr size_t kHeader = 20;
   if (file.size() < kHeader) return {};
-  uint32_t bytes = 0;
-  std::copy_n(file.data() + 12, sizeof bytes, reinterpret_cast<char*>(&bytes));
-  return file.substr(kHeader, bytes);
+  return file.substr(kHeader, number_at(file, 12));
+}
+
+/// Returns whether a binary glTF has the bytes that it announces: a header of 12 bytes, then chunks, each with a length
+/// and a type before its bytes.
+bool has_chunks(std::string_view glb) {
+  constexpr size_t kHeader = 12, kChunkHeader = 8;
+  if (!glb.starts_with("glTF") || glb.size() < kHeader + kChunkHeader) return false;
+  if (number_at(glb, 8) > glb.size()) return false;
+  for (size_t at = kHeader; at < number_at(glb, 8);) {
+    if (glb.size() - at < kChunkHeader || number_at(glb, at) > glb.size() - at - kChunkHeader) return false;
+    at += kChunkHeader + number_at(glb, at);
+  }
+  return true;
 }
 
 /// Returns the number of faces: lines that begin with `f`. Their memory in the importer far exceeds their size in the
@@ -159,6 +176,7 @@ std::string require_importable(const std::filesystem::path& mesh) {
   stream.read(text.data(), std::ssize(text));
   text.resize(static_cast<size_t>(stream.gcount()));
   refuse_if(!stream.is_open() || stream.bad(), "it cannot be read");
+  refuse_if(suffix == ".glb" && !has_chunks(text), "it is no binary glTF 2, or is shorter than its chunks");
   const std::string too_deep = "is nested deeper than " + std::to_string(kMaxNesting);
   if (suffix == ".gltf" || suffix == ".glb") {
     const bool is_binary = text.starts_with("glTF");

@@ -21,7 +21,10 @@ std::string resolved_yaml(Scenario scenario, uint64_t seed) {
 }
 
 std::vector<std::string> run_arguments(const Order& order) {
-  std::vector<std::string> arguments{"run", order.scenario.string(), "--seed", std::to_string(order.seed)};
+  // A file whose name begins with '-' is no option.
+  const std::string file = order.scenario.string();
+  std::vector<std::string> arguments{"run", file.starts_with('-') ? "./" + file : file, "--seed",
+                                     std::to_string(order.seed)};
   for (const std::string& text : order.overrides) {
     arguments.emplace_back("--set");
     arguments.push_back(text);
@@ -52,14 +55,6 @@ std::string rerun_command(const Order& order) {
   std::string command = "hedgehop";
   for (const std::string& argument : run_arguments(order)) command += " " + shell_quoted(argument);
   return command;
-}
-
-std::string shell_quoted(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 std::string_view to_string(FlightRecord::Status status) {

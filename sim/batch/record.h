@@ -37,9 +37,6 @@ std::vector<std::string> run_arguments(const Order& order);
 /// "hedgehop run FILE --seed 3 --set 'a.b=1'", ready for a POSIX shell.
 std::string rerun_command(const Order& order);
 
-/// Returns a word, quoted for a POSIX shell if necessary.
-std::string shell_quoted(const std::string& word);
-
 /// Parses the batch.json of an earlier batch. Throws InputError if the file cannot be read, is not JSON, or has a key
 /// of an earlier version.
 nlohmann::ordered_json read_batch_json(const std::filesystem::path& file);

@@ -13,11 +13,13 @@
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
 #include "sim/config/config_outline.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/outline_texts.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/shrink.h"
 #include "sim/flight/build.h"
+#include "sim/libm/random.h"
 #include "sim/record/run_record.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -66,16 +68,17 @@ Scenario branched(const Scenario& base, const BranchOptions& options, const fs::
   return branch;
 }
 
-/// A name for the branch's files: "at-32.5-avoidance.speed=1".
+/// A name for the branch's files: "at-32.5-avoidance.speed=1". A name that is cut ends in a number of its whole text.
 std::string name_of(const BranchOptions& options) {
-  constexpr size_t kMaxLetters = 120;
+  constexpr size_t kMaxLetters = 120, kNumberLetters = 17;
   std::string name = fmt::format("at-{:g}", options.at_s);
   for (const std::string& text : options.overrides) name += "-" + text;
+  const std::string number = fmt::format("-{:016x}", stream_seed(0, name));
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::string_view("-_.=").find(c) == std::string_view::npos)
       c = '_';
   }
-  return name.substr(0, kMaxLetters);
+  return name.size() <= kMaxLetters ? name : name.substr(0, kMaxLetters - kNumberLetters) + number;
 }
 
 /// The scenarios of the folder, this branch's among them; a folder holds the branches of one flight.
@@ -85,7 +88,6 @@ std::vector<Order> write_scenarios(const Scenario& base, const Scenario& branch,
   if (fs::exists(unbroken) && read_file_whole(unbroken) != to_yaml(base)) {
     throw InputError(fmt::format("{}: holds branches of another flight; choose another --out", out.string()));
   }
-  require_writable(out);
   fs::create_directories(folder);
   write_file_whole(unbroken, to_yaml(base));
   write_file_whole(folder / (name + ".yaml"), to_yaml(branch));
@@ -149,6 +151,8 @@ int branch(const BranchOptions& options) {
   const Scenario scenario = branched(base, options, file);
   const std::string name = name_of(options);
   const fs::path out = options.out.empty() ? fs::path("out") / (base.name + "-branches") : options.out;
+  require_writable(out);
+  const FolderLock lock(out);
   const std::vector<Order> orders = write_scenarios(base, scenario, name, out);
 
   Interruption interruption;

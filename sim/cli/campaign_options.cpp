@@ -193,7 +193,8 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command =
       app.add_subcommand("falsify",
                          "search for failing flights and store each as a minimal scenario; resumes after an "
-                         "interruption. Exit status: 0 no failure found; 1 failures found; 3 a failure did not repeat");
+                         "interruption. Exit status: 0 no failure in any flight; 1 confirmed failures; 3 a repeated "
+                         "failure differs; 4 undecided, because flights were not flown");
   const auto options = std::make_shared<FalsifyOptions>();
   options->jobs = usable_cores();
   command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();

@@ -11,6 +11,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
 #include "sim/config/input_error.h"
+#include "sim/config/folder_lock.h"
 #include "sim/dataset/dataset.h"
 #include "sim/fields/bounds.h"
 
@@ -126,6 +127,7 @@ int dataset(const DatasetOptions& options) {
     return 0;
   }
   begin_dataset(request, options.resume);
+  const FolderLock lock(request.out);
   if (const int status = write_worlds(request, options); status != 0) {
     if (status == kBadInput) abandon_dataset(request);
     if (std::filesystem::exists(request.out / "request.json")) {

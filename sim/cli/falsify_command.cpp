@@ -7,9 +7,11 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/counterexample.h"
+#include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/report_page.h"
 #include "sim/sweep/sweep.h"
@@ -18,6 +20,38 @@ namespace hedgehop::sim::cli {
 namespace {
 
 constexpr size_t kConfirmingFlights = 2;  // of each failure: as it was found, and as it is kept
+
+/// Prints the number of flights that were not flown, and each cause with its first flight.
+/// @return the number.
+size_t print_not_flown(const std::vector<FlightRecord>& records) {
+  std::vector<std::pair<const FlightRecord*, size_t>> causes;  // in order of occurrence
+  size_t count = 0;
+  for (const FlightRecord& record : records) {
+    if (verdict_of(record) != Verdict::not_flown) continue;
+    ++count;
+    const auto known = std::ranges::find(causes, record.cause, [](const auto& cause) { return cause.first->cause; });
+    known == causes.end() ? void(causes.emplace_back(&record, 1)) : void(++known->second);
+  }
+  if (count == 0) return 0;
+  fmt::print("{} of {} flights were not flown; they count neither as passed nor as failed:\n", count, records.size());
+  for (const auto& [record, times] : causes) {
+    fmt::print("  {} times, first {}: {}\n      {}\n", times, record->order.id, record->cause,
+               rerun_command(record->order));
+  }
+  return count;
+}
+
+std::string_view words(Repeat repeat) {
+  switch (repeat) {
+    case Repeat::equal:
+      return "";
+    case Repeat::differs:
+      return "; NOT CONFIRMED: the repeated flight differs";
+    case Repeat::not_flown:
+      return "; NOT CONFIRMED: the repeated flight was not flown";
+  }
+  return "";
+}
 
 /// A folder holds one search: flights of another would be taken for this one's.
 void require_same_search(const FalsifySearch& search, const std::filesystem::path& out) {
@@ -90,26 +124,31 @@ class FalsifyRun {
   int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
     const auto failing = std::ranges::count_if(result.trials, &FalsifyTrial::fails);
     fmt::print("{}{}", mixture_words(result.records), truth_words(result.records));
+    const size_t not_flown = print_not_flown(result.records);
     if (found.empty())
-      fmt::print("no failure in {} flights: none was found, which is no proof of safety\n", result.records.size());
+      fmt::print("no failure in {} flights: none was found, which is no proof of safety\n",
+                 result.records.size() - not_flown);
     if (!found.empty()) {
       fmt::print("{} flights, {} of {} points fail, the first after {} flights; {} distinct failures\n",
                  result.records.size(), failing, result.trials.size(), result.trials[result.failures[0]].record + 1,
                  found.size());
     }
     size_t confirmed = 0;
+    bool differs = false;
     for (const Counterexample& one : found) {
-      const bool same = one.repeats && one.confirmed;
-      confirmed += same ? 1 : 0;
+      const Repeat repeat = one.repeats == Repeat::equal ? one.confirmed : one.repeats;
+      confirmed += repeat == Repeat::equal ? 1 : 0;
+      differs |= repeat == Repeat::differs;
       fmt::print(
           "FAIL  {}: robustness {:.4g}, {} of {} boxes, movers and failures left, {:g} s{}\n      hedgehop run {}\n",
           one.file.stem().string(), one.weakest.robustness, one.shrunk.items, one.shrunk.items_before,
-          one.shrunk.scenario.duration_s, same ? "" : "; NOT CONFIRMED: it did not repeat", one.file.string());
+          one.shrunk.scenario.duration_s, words(repeat), shell_quoted(one.file.string()));
     }
     if (!found.empty()) fmt::print("confirmed: {} of {}, flown again alone\n", confirmed, found.size());
     fmt::print("written: {}\n", (out_ / "report.html").string());
-    if (confirmed < found.size()) return kInternalError;
-    return found.empty() ? 0 : kFails;
+    if (differs) return kInternalError;
+    if (confirmed > 0) return kFails;
+    return not_flown > 0 || !found.empty() ? kUndecided : 0;
   }
 
   const FalsifySearch& search_;
@@ -126,8 +165,9 @@ int falsify(const FalsifyOptions& options) {
   const FalsifySearch search = read_falsify(options.file, options.overrides);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / options.file.stem() : options.out;
-  require_same_search(search, out);
   require_writable(out);
+  const FolderLock lock(out);
+  require_same_search(search, out);
   return FalsifyRun(options, search, out).run();
 }
 

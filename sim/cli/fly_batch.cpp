@@ -13,6 +13,7 @@
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
@@ -201,6 +202,7 @@ std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyO
 
 int fly_batch(BatchRun run) {
   require_writable(run.fly.out);
+  const FolderLock lock(run.fly.out);
   if (!run.junit.empty()) require_writable_file(run.junit);
   for (const std::string& fault : run.batch.faults) notice(fmt::format("{}\n", fault));
   for (const std::string& line : run.batch.left_out) notice(fmt::format("{}\n", line));

@@ -12,6 +12,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/pages/report_page.h"
@@ -138,6 +139,7 @@ int reproduce(const ReproduceOptions& options) {
   const std::vector<Paper> papers = read_papers(options.papers);
   const fs::path out = options.out.empty() ? fs::path("out") / "reproduce" : options.out;
   require_writable(out);
+  const FolderLock lock(out);
   if (!options.write.empty()) require_writable_file(options.write);
   Interruption interruption;
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);

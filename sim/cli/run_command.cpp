@@ -16,6 +16,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/live_view.h"
 #include "sim/cli/progress.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/flight/words.h"
@@ -35,9 +36,11 @@ constexpr double kViewImagesHz = 10.0;  // of the module's image in the live vie
 class RunWatcher : public FlightWatcher {
  public:
   /// @param view  whether a live view shows the images.
-  RunWatcher(const std::string& name, const FilmConfig& filming, const std::filesystem::path& film_file, bool quiet,
+  RunWatcher(const std::string& name, const FilmConfig& filming, const std::filesystem::path& out, bool quiet,
              bool view)
-      : film_(filming, film_file), progress_(name), quiet_(quiet), view_(view) {}
+      : film_(filming, out / kFilm), progress_(name), module_folder_(out / "module"), quiet_(quiet), view_(view) {}
+
+  static constexpr const char* kFilm = "video.webm";
 
   double image_rate_hz() const override {
     const double film_hz = film_.image_rate_hz();
@@ -49,6 +52,7 @@ class RunWatcher : public FlightWatcher {
     status_ = shown.status;
     module_image_ = shown.annotated.clone();
   }
+  std::filesystem::path module_folder() const override { return module_folder_; }
   void on_progress(double t_s, double duration_s, double goal_distance_m) override {
     if (!quiet_) progress_.show(t_s, duration_s, goal_distance_m);
   }
@@ -65,6 +69,7 @@ class RunWatcher : public FlightWatcher {
  private:
   FilmWatcher film_;
   FlightProgress progress_;
+  std::filesystem::path module_folder_;
   bool quiet_, view_;
   std::string status_;
   cv::Mat module_image_;
@@ -143,10 +148,12 @@ int run(const RunOptions& options) {
       options.out.empty() ? std::filesystem::path{"out"} / fmt::format("{}-seed{}", scenario.name, scenario.seed)
                           : options.out;
   require_writable(out);
-  const std::filesystem::path film = out / "video.webm";
+  std::optional<FolderLock> lock;  // a worker's campaign holds the lock
+  if (options.worker_of == 0) lock.emplace(out);
+  const std::filesystem::path film = out / RunWatcher::kFilm;
   FilmConfig filming = scenario.film;
   filming.enabled = filming.enabled || keeps(options, "film", true);
-  RunWatcher watcher(scenario.name, filming, film, options.worker_of != 0, options.view);
+  RunWatcher watcher(scenario.name, filming, out, options.worker_of != 0, options.view);
   Simulation simulation(std::move(loaded), &watcher);
   std::optional<LiveView> view;
   if (options.view) view.emplace(simulation);

@@ -13,6 +13,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
+#include "sim/config/folder_lock.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
@@ -259,6 +260,7 @@ int plan_and_fly_sweep(const SweepOptions& options) {
           design->evaluations, run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1);
       return 0;
     }
+    const FolderLock lock(run.out);
     return fly_optimizer(run, *design);
   }
   if (const size_t points = count_points(run.sweep); points > kManyPoints) {
@@ -272,8 +274,11 @@ int plan_and_fly_sweep(const SweepOptions& options) {
     shard = parse_shard(options.shard);
     run.name = fmt::format("shard-{}-of-{}", shard.index, shard.of);
   }
-  if (options.merge || options.missing) return gather_all(run, plan, shard);
-  return options.dry_run ? print_plan(run, plan, shard) : fly_all(run, plan, shard);
+  if (options.missing) return gather_all(run, plan, shard);
+  if (options.dry_run) return print_plan(run, plan, shard);
+  std::optional<FolderLock> lock;
+  options.shard.empty() ? lock.emplace(run.out) : lock.emplace(run.out, run.name);
+  return options.merge ? gather_all(run, plan, shard) : fly_all(run, plan, shard);
 }
 
 }  // namespace

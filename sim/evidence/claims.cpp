@@ -44,6 +44,7 @@ std::string_view to_string(Standing standing) {
 }
 
 RateClaim parse_rate_claim(const std::string& text) {
+  require_short_rule(text);
   static const std::regex kClaim(R"(\s*(.+?)\s*([<>])\s*([^\s<>()]+)\s*)");
   std::smatch parts;
   if (!std::regex_match(text, parts, kClaim)) {
@@ -132,6 +133,7 @@ std::string RateTally::words() const {
 }
 
 PairClaim parse_pair_claim(const std::string& text, std::optional<double> range_m) {
+  require_short_rule(text);
   static const std::regex kClaim(R"(\s*([^:]+?)\s*:\s*(?:better|no worse by\s+(\S+))\s*)");
   std::smatch parts;
   if (!std::regex_match(text, parts, kClaim)) {

@@ -36,7 +36,15 @@ bool flew(const FlightRecord& record) { return record.result && verdict_of(recor
 
 }  // namespace
 
+void require_short_rule(std::string_view text) {
+  constexpr size_t kMaxLetters = 200;
+  if (text.size() <= kMaxLetters) return;
+  throw InputError(
+      fmt::format("'{}...': has {} letters; a claim has at most {}", text.substr(0, 40), text.size(), kMaxLetters));
+}
+
 FlightEvent parse_event(std::string_view text, std::string_view rule) {
+  require_short_rule(text);
   const std::string whole(text);
   static const std::regex kRate(R"(rate\(\s*([\w.]+)\s*([<>])\s*(\S+?)\s*\))");
   if (std::smatch parts; std::regex_match(whole, parts, kRate)) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -16,9 +17,12 @@ using Json = nlohmann::ordered_json;
 
 std::string hash_of(const FlightRecord& record) { return record.result ? record.result->flight.trajectory_hash : ""; }
 
-bool same_failure(const FlightRecord& a, const FlightRecord& b, const std::string& check) {
-  const WeakestCheck of_a = weakest_check(a, {check}), of_b = weakest_check(b, {check});
-  return hash_of(a) == hash_of(b) && of_a.name == of_b.name && of_a.robustness == of_b.robustness;
+/// Compares two flights bit for bit.
+Repeat repeat_of(const FlightRecord& a, const FlightRecord& b, const std::string& check) {
+  const auto of_a = weakest_check(a, {check}), of_b = weakest_check(b, {check});
+  if (!of_a || !of_b) return Repeat::not_flown;
+  const bool equal = hash_of(a) == hash_of(b) && of_a->name == of_b->name && of_a->robustness == of_b->robustness;
+  return equal ? Repeat::equal : Repeat::differs;
 }
 
 /// Writes the scenario of the shrunk flight, which can serve as a regression test, and returns its file.
@@ -47,12 +51,12 @@ Json counterexample_json(const FalsifyResult& result, const Counterexample& foun
               {"check", trial.weakest.name},
               {"outcome", outcome_words(found.shrunk.record)},
               {"robustness", trial.weakest.robustness},
-              {"repeats", found.repeats},
+              {"repeats", found.repeats == Repeat::equal},
               {"file", (std::filesystem::path("counterexamples") / found.file.filename()).string()},
               {"folder", found.folder},
               {"shrunk_robustness", found.weakest.robustness},
               {"trajectory_hash", hash_of(found.shrunk.record)},
-              {"confirmed", found.confirmed},
+              {"confirmed", found.confirmed == Repeat::equal},
               {"items", found.shrunk.items},
               {"items_before", found.shrunk.items_before},
               {"duration_s", found.shrunk.scenario.duration_s},
@@ -74,7 +78,7 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
   again.id = "again/" + name;
   const std::optional<FlightRecord> repeated = fly.plain(again);
   if (!repeated) return {};
-  found.repeats = same_failure(record, *repeated, check);
+  found.repeats = repeat_of(record, *repeated, check);
 
   found.shrunk = shrink(search, trial, record, out / "shrink" / name,
                         static_cast<size_t>(search.config.design.shrinking), [&](const Order& order) {
@@ -83,7 +87,7 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
                           return fly.plain(inside);
                         });
   if (found.shrunk.stopped) return {};
-  found.weakest = weakest_check(found.shrunk.record, {check});
+  found.weakest = weakest_check(found.shrunk.record, {check}).value();  // it failed, so it was flown
 
   found.file = write_scenario(found, name, search_file, check, out);
   found.folder = "counterexamples/" + name;
@@ -91,7 +95,7 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
   kept.scenario_yaml = to_yaml(load_scenario(found.file));  // which records a video
   const std::optional<FlightRecord> confirmed = fly.with_report(kept);
   if (!confirmed) return {};
-  found.confirmed = same_failure(found.shrunk.record, *confirmed, check);
+  found.confirmed = repeat_of(found.shrunk.record, *confirmed, check);
   return found;
 }
 
@@ -106,6 +110,8 @@ std::string falsify_json(const FalsifySearch& search, const FalsifyResult& resul
             {"budget", search.config.design.budget},
             {"unknowns", search.sweep.parameters.size()},
             {"flights", result.records.size()},
+            {"flights_not_flown", std::ranges::count(result.records, Verdict::not_flown,
+                                                     [](const FlightRecord& record) { return verdict_of(record); })},
             {"infeasible_points", result.infeasible},
             {"flights_to_first", nullptr},
             {"failing_flights", 0},

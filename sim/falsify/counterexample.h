@@ -10,15 +10,18 @@
 
 namespace hedgehop::sim {
 
+/// Outcome of a flight that repeats another one.
+enum class Repeat { equal, differs, not_flown };
+
 /// A failure of a search after it was flown again, shrunk and stored.
 struct Counterexample {
-  size_t trial = 0;      ///< of the search
-  bool repeats = false;  ///< whether a second flight in a new process was equal, bit for bit
+  size_t trial = 0;                    ///< of the search
+  Repeat repeats = Repeat::not_flown;  ///< whether a second flight in a new process was equal, bit for bit
   Shrunk shrunk;
-  WeakestCheck weakest;        ///< of the shrunk flight
-  std::filesystem::path file;  ///< its scenario, with `origin`
-  std::string folder;          ///< of its flight, with video and report, relative to the search's
-  bool confirmed = false;      ///< whether the file's flight in a new process equals the shrunk one, bit for bit
+  WeakestCheck weakest;                  ///< of the shrunk flight
+  std::filesystem::path file;            ///< its scenario, with `origin`
+  std::string folder;                    ///< of its flight, with video and report, relative to the search's
+  Repeat confirmed = Repeat::not_flown;  ///< whether the file's flight in a new process equals the shrunk one
 };
 
 /// Functions that fly counterexamples. The ids of their orders are folders relative to the search's folder.

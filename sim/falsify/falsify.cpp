@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -124,10 +125,13 @@ class Search {
 
   /// Adds a flown point. @param first  index of its first flight in `records`.
   void judge(FalsifyTrial trial, const std::vector<FlightRecord>& records, size_t first) {
+    trial.weakest.robustness = kInfeasibleCost;
+    trial.record = result_.records.size() + first;
     for (size_t k = first; k < first + seeds(); ++k) {
-      const WeakestCheck weakest = weakest_check(records[k], search_.config.robustness);
-      if (k > first && weakest.robustness >= trial.weakest.robustness) continue;
-      trial.weakest = weakest;
+      const auto weakest = weakest_check(records[k], search_.config.robustness);
+      if (!weakest || (trial.flown && weakest->robustness >= trial.weakest.robustness)) continue;
+      trial.flown = true;
+      trial.weakest = *weakest;
       trial.record = result_.records.size() + k;
     }
     if (trial.fails() && !has_enough() && is_new(trial)) result_.failures.push_back(result_.trials.size());
@@ -245,10 +249,10 @@ Table falsify_table(const FalsifySearch& search, const FalsifyResult& result) {
   std::vector<std::string> weakest_checks;
   const size_t seeds = result.trials.empty() ? 1 : result.records.size() / result.trials.size();
   for (size_t i = 0; i < result.records.size(); ++i) {
-    const WeakestCheck weakest = weakest_check(result.records[i], search.config.robustness);
+    const auto weakest = weakest_check(result.records[i], search.config.robustness);
     generations.push_back(static_cast<double>(result.trials[i / seeds].generation));
-    weakest_checks.push_back(weakest.name);
-    robustness.push_back(weakest.robustness);
+    weakest_checks.push_back(weakest ? weakest->name : "");
+    robustness.push_back(weakest ? weakest->robustness : std::numeric_limits<double>::quiet_NaN());
   }
   const std::vector<Table::Column> before = {{.name = "generation", .values = std::move(generations), .whole = true},
                                              {.name = "weakest", .values = std::move(weakest_checks)},

@@ -15,7 +15,8 @@ struct FalsifyTrial {
   std::vector<double> coordinates;  ///< in the unit cube, one per parameter of the search's sweep
   std::vector<std::string> values;
   size_t generation = 0;  ///< 0 for random points
-  WeakestCheck weakest;   ///< over all seeds
+  bool flown = false;     ///< with at least one seed; else `weakest` is a clear pass without a name
+  WeakestCheck weakest;   ///< over the seeds that were flown
   size_t record = 0;      ///< number of the flight of the weakest check
 
   bool fails() const { return weakest.robustness < 0.0; }

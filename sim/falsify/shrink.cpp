@@ -161,8 +161,8 @@ class Shrinker {
       const std::optional<FlightRecord> record = fly_(order);
       shrunk_.stopped = !record;
       if (!record) return false;
-      const WeakestCheck now = weakest_check(*record, {check_});
-      if (now.name != check_ || now.robustness >= 0.0) return false;
+      const auto now = weakest_check(*record, {check_});
+      if (!now || now->name != check_ || now->robustness >= 0.0) return false;
       best_ = candidate;
       shrunk_.scenario = scenario;
       shrunk_.record = *record;

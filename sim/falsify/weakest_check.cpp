@@ -11,7 +11,7 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr double kMinFailure = 1e-6;  // keeps the robustness of a check that fails exactly at its limit below 0
-constexpr double kCrash = -1.0;       // below a collision, which is about 0
+constexpr double kFault = -1.0;       // below a collision, which is about 0
 constexpr double kClearPass = kMaxClearanceM;  // no obstacle within range, or no checks
 
 double scale_of(const std::string& unit) {
@@ -27,15 +27,14 @@ double check_robustness(const CheckResult& check) {
   if (check.must == "<=") margin = -margin;
   margin /= scale_of(check.unit);
   if (!std::isfinite(margin))
-    return check.passed ? kClearPass : kCrash;  // such as a clearance with no obstacle within range
+    return check.passed ? kClearPass : kFault;  // such as a clearance with no obstacle within range
   return check.passed ? std::max(margin, 0.0) : std::min(margin, -kMinFailure);
 }
 
-WeakestCheck weakest_check(const FlightRecord& record, const std::vector<std::string>& names) {
-  const bool refused = !record.order.fault.empty() || record.cause.starts_with("exit status 2");
-  if (refused) return {"", kClearPass};
+std::optional<WeakestCheck> weakest_check(const FlightRecord& record, const std::vector<std::string>& names) {
   const Verdict verdict = verdict_of(record);
-  if (verdict == Verdict::not_flown || verdict == Verdict::fault) return {"flight", kCrash};
+  if (verdict == Verdict::not_flown) return {};
+  if (verdict == Verdict::fault) return WeakestCheck{"flight", kFault};
   WeakestCheck weakest{"", kClearPass};
   for (const CheckResult& check : record.result->flight.checks) {
     if (!names.empty() && std::ranges::find(names, check.name) == names.end()) continue;

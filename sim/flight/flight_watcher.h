@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -51,6 +52,8 @@ class FlightWatcher {
   virtual bool wants_sensors() const { return false; }
   /// Called on every tick with a reading of the IMU or a camera.
   virtual void on_sensors(const SensorTick& /*tick*/) {}
+  /// Returns the working folder of a foreign module's process, with its log; empty: a temporary one.
+  virtual std::filesystem::path module_folder() const { return {}; }
   /// Called after every second of flight. @param goal_distance_m  horizontal; NaN without a goal.
   virtual void on_progress(double /*t_s*/, double /*duration_s*/, double /*goal_distance_m*/) {}
 };

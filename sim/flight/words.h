@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "sim/flight/flight.h"
 
@@ -19,6 +20,12 @@ std::string library_words(const Libraries& libraries);
 
 /// Returns the renderer without the vector width of the processor, which does not change images.
 std::string renderer_words(const Libraries& libraries);
+
+/// Returns a word, quoted for a POSIX shell if necessary.
+std::string shell_quoted(const std::string& word);
+
+/// Returns a text as a cell of a Markdown table, on one line and with its bars escaped.
+std::string markdown_cell(std::string_view text);
 
 /// Advice for flights with FlightResult::goal_missed_unchecked.
 inline constexpr const char* kGoalMissedUnchecked =

@@ -70,11 +70,13 @@ class Takeover : public avoidance::Module {
 }  // namespace
 
 std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,
-                                                      std::unique_ptr<avoidance::Module> module) {
-  if (!module) module = make_module(scenario.avoidance);
+                                                      std::unique_ptr<avoidance::Module> module,
+                                                      const std::filesystem::path& folder) {
+  if (!module) module = make_module(scenario.avoidance, folder);
   if (!scenario.takeover) return module;
   return build_part("takeover.avoidance", [&] {
-    return make_takeover(std::move(module), make_module(scenario.takeover->avoidance),
+    return make_takeover(std::move(module),
+                         make_module(scenario.takeover->avoidance, folder.empty() ? folder : folder / "takeover"),
                          ticks.t_ns(ticks.ticks(scenario.takeover->at_s)));
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 
 #include "avoidance/module.h"
@@ -10,10 +11,11 @@
 namespace hedgehop::sim {
 
 /// Returns the module of a flight. If the scenario has a takeover, the returned module combines both modules.
-/// @param module  of the scenario; null for a foreign module, which is loaded.
+/// @param module  of the scenario; null for a foreign module, which is loaded. @param folder  as of make_module().
 /// Throws InputError if a module cannot be loaded, or if the two modules need different cameras.
 std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,
-                                                      std::unique_ptr<avoidance::Module> module);
+                                                      std::unique_ptr<avoidance::Module> module,
+                                                      const std::filesystem::path& folder = {});
 
 /// Returns a module that decides like `before` until an instant and like `after` from then on. Both receive every
 /// observation from the start, so `after` has the same history. If both are equal, the flight is bit-identical to a

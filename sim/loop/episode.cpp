@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/loop/module_pilot.h"
+#include "sim/scenario/validate.h"
 
 namespace hedgehop::sim {
 Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher,
@@ -17,7 +18,8 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
       environment_(environment),
       aircraft_(scenario, ticks_, std::move(parts.aircraft)),
       cameras_(scenario.rig, ticks_, *environment.scene, environment.renderer, scenario.seed, scenario.failures),
-      pilot_(scenario, ticks_, cameras_, std::move(parts.module)),
+      pilot_(scenario, ticks_, cameras_, std::move(parts.module),
+             watcher ? watcher->module_folder() : std::filesystem::path()),
       watcher_dispatch_(watcher, ticks_, cameras_, aircraft_),
       map_observer_(map_observer),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
@@ -28,6 +30,9 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
   aircraft_.reset(environment_.collision);
   const double heading_rad = pilot_.route().goal().heading_rad;
   pilot_.reset(environment_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
+  if (const std::string fault = signal_fault(pilot_.module().signals()); !fault.empty()) {
+    throw InputError("avoidance: " + fault);
+  }
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;
   begin_tick();
@@ -63,10 +68,14 @@ void Episode::complete_tick(const avoidance::Command* command) {
     decide();
   }
   if (tick_ % control_period_ == 0) run_autopilot();
-  const auto annotate = [this] {
-    cv::Mat image;
-    call_module([&] { image = pilot_.module().annotate(); });
-    return image;
+  const auto annotate = [this]() -> cv::Mat {
+    try {
+      cv::Mat image = pilot_.module().annotate();
+      const bool is_film_image = image.dims == 2 && image.type() == CV_8UC3 && std::max(image.rows, image.cols) <= 8192;
+      return is_film_image ? image : cv::Mat();
+    } catch (const std::exception&) {  // a video cannot change the flight
+      return {};
+    }
   };
   watcher_dispatch_.send_images(tick_, annotate, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
                                 goal_distance_m());

@@ -31,11 +31,11 @@ void require_cameras(const RigConfig& rig, const avoidance::Needs& needs) {
 }  // namespace
 
 ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
-                         std::unique_ptr<avoidance::Module> module)
+                         std::unique_ptr<avoidance::Module> module, const std::filesystem::path& module_folder)
     : scenario_(scenario),
       ticks_(ticks),
       cameras_(cameras),
-      module_(make_active_module(scenario, ticks, std::move(module))),
+      module_(make_active_module(scenario, ticks, std::move(module), module_folder)),
       truth_used_(sim::truth_used(module_->needs(), scenario.avionics)),
       route_(scenario) {
   require_cameras(scenario.rig, module_->needs());

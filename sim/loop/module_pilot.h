@@ -21,10 +21,10 @@ namespace hedgehop::sim {
 /// Runs the module in flight: selects its frames, schedules its decisions and delays its commands to the autopilot.
 class ModulePilot {
  public:
-  /// @param module  of the scenario; null for a foreign module, which is loaded.
-  /// Throws InputError for a module that cannot be loaded or whose cameras the rig lacks.
-  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras,
-              std::unique_ptr<avoidance::Module> module);
+  /// @param module  of the scenario; null for a foreign module, which is loaded. @param module_folder  as of
+  /// make_module(). Throws InputError for a module that cannot be loaded or whose cameras the rig lacks.
+  ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& cameras, std::unique_ptr<avoidance::Module> module,
+              const std::filesystem::path& module_folder);
 
   /// Starts a flight. @param hull  of the vehicle. @param hold  setpoint until the first command takes effect.
   /// Throws InputError if the module cannot be reset.

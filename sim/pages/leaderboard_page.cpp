@@ -15,6 +15,7 @@
 #include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
 #include "sim/flight/json_reader.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -120,13 +121,17 @@ std::string words(const Json& value, const char* format = "{:.2f}") {
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
 }
 
+std::string name_cell(const Json& one, const char* key = "name") {
+  return markdown_cell(one.at(key).get<std::string>());
+}
+
 std::string matrix_text(const Json& data) {
   std::string text = "| world | difficulty |";
-  for (const Json& module : data.at("modules")) text += fmt::format(" {} |", module.at("name").get<std::string>());
+  for (const Json& module : data.at("modules")) text += fmt::format(" {} |", name_cell(module));
   text += "\n|---|---|";
   for (size_t i = 0; i < data.at("modules").size(); ++i) text += "---|";
   for (const Json& world : data.at("worlds")) {
-    text += fmt::format("\n| {} | {} |", world.at("name").get<std::string>(), words(world.at("difficulty")));
+    text += fmt::format("\n| {} | {} |", name_cell(world), words(world.at("difficulty")));
     for (const Json& module : data.at("modules")) {
       const Json& cell = cell_of(data, world, module);
       if (cell.contains("passed")) {
@@ -149,7 +154,7 @@ std::string totals_text(const Json& data) {
       "|---|---|---|---|---|---|---|\n";
   for (const Json& total : data.at("totals")) {
     if (!total.contains("passed")) continue;
-    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", total.at("module").get<std::string>(),
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", name_cell(total, "module"),
                         total.at("worlds").get<int64_t>(), total.at("flights").get<int64_t>(),
                         total.at("passed").get<int64_t>(), total.at("collided").get<int64_t>(),
                         total.at("collided_low").get<double>(), total.at("collided_high").get<double>(),
@@ -167,7 +172,7 @@ std::string rows_text(const Json& data) {
     for (const Json& module : data.at("modules")) {
       const Json& cell = cell_of(data, world, module);
       if (!cell.contains("passed")) continue;
-      text += fmt::format("| {} | {} |", world.at("name").get<std::string>(), module.at("name").get<std::string>());
+      text += fmt::format("| {} | {} |", name_cell(world), name_cell(module));
       for (const char* key : {"flights", "passed", "collided", "timeout", "broken"}) {
         text += fmt::format(" {} |", cell.at(key).get<int64_t>());
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,11 +10,11 @@
 
 namespace hedgehop::sim {
 
-/// Returns the avoidance module; a foreign module is loaded from its library. Every call of a foreign module is guarded
-/// (call_guard.h): after a crash or a timeout it is never called again.
-/// Throws std::invalid_argument on an invalid config of a module of this tree, and InputError with the library if it is
+/// Returns the avoidance module. A foreign module is loaded in a process of its own (module_process.h), unless its
+/// config says `in_process`. @param folder  working folder of that process; empty: a temporary one. Throws
+/// std::invalid_argument on an invalid config of a module of this tree, and InputError with the library if it is
 /// missing or invalid, was built against another interface, lacks the module, or refuses its parameters.
-std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config);
+std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config, const std::filesystem::path& folder = {});
 
 /// The module that an interpreter must make.
 struct PythonRequest {
@@ -23,10 +24,11 @@ struct PythonRequest {
 /// Throws std::exception with one line if the class does not exist or raises an exception.
 using PythonMaker = std::function<std::unique_ptr<avoidance::Module>(const PythonRequest&)>;
 
-/// Sets the running interpreter that makes modules in Python. Without it, the first such module loads an interpreter.
+/// Sets the running interpreter that makes modules in Python, in this process. Without it, each such module loads an
+/// interpreter in its process.
 void set_python_maker(PythonMaker maker);
 
 /// Throws InputError if this build has no Python, or if the file or its class is invalid.
-std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config);
+std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config, const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

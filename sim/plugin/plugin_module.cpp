@@ -8,7 +8,7 @@
 #include "avoidance/plugin.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
-#include "sim/plugin/call_guard.h"
+#include "sim/plugin/module_process.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -57,77 +57,6 @@ class ParameterReader : public avoidance::ParameterVisitor {
   StructReader reader_;
 };
 
-/// A foreign module with guarded calls.
-class GuardedModule : public avoidance::Module {
- public:
-  GuardedModule(std::unique_ptr<avoidance::Module> module, const PluginConfig& config)
-      : module_(module.release()), name_(config.module), limit_s_(config.limit_s) {}
-  ~GuardedModule() override {
-    if (!broken_.empty()) return;  // its state is undefined: do not delete it
-    try {
-      guarded([this] { delete module_; });
-    } catch (const std::exception&) {  // the flight is over
-      return;
-    }
-  }
-  GuardedModule(const GuardedModule&) = delete;
-  GuardedModule& operator=(const GuardedModule&) = delete;
-
- private:
-  avoidance::Needs do_needs() const override {
-    return answer_of<avoidance::Needs>([this] { return module_->needs(); });
-  }
-  std::vector<avoidance::Signal> do_signals() const override {
-    return answer_of<std::vector<avoidance::Signal>>([this] { return module_->signals(); });
-  }
-  void do_reset(const avoidance::Setup& setup) override {
-    guarded([&] { module_->reset(setup); });
-  }
-  avoidance::Decision do_update(const avoidance::Observation& observation) override {
-    return answer_of<avoidance::Decision>([&] { return module_->update(observation); });
-  }
-  std::vector<avoidance::Metric> do_metrics() const override {
-    return reported<std::vector<avoidance::Metric>>([this] { return module_->metrics(); });
-  }
-  avoidance::Map do_map() const override {
-    return reported<avoidance::Map>([this] { return module_->map(); });
-  }
-  cv::Mat do_annotate() const override {
-    return reported<cv::Mat>([this] { return module_->annotate(); });
-  }
-
-  void guarded(const std::function<void()>& call) const {
-    if (broken_.empty()) {
-      try {
-        call_guarded(limit_s_, call);
-        return;
-      } catch (const CallBroken& broken) {
-        broken_ = fmt::format("'{}' {}", name_, broken.what());
-      }
-    }
-    throw CallBroken(broken_);
-  }
-
-  template <class Answer, class Call>
-  Answer answer_of(const Call& call) const {
-    Answer answer;
-    guarded([&] { answer = call(); });
-    return answer;
-  }
-
-  /// Returns an optional report of the module; empty after a crash or timeout.
-  template <class Answer, class Call>
-  Answer reported(const Call& call) const {
-    if (!broken_.empty()) return {};
-    return answer_of<Answer>(call);
-  }
-
-  avoidance::Module* module_;  ///< owned unless broken_
-  std::string name_;
-  double limit_s_;
-  mutable std::string broken_;  ///< error of the last call; empty without error
-};
-
 [[noreturn]] void refuse(const PluginConfig& config, const std::string& why) {
   throw InputError(FieldError{"avoidance.plugin", fmt::format("{}: {}", config.plugin.string(), why)});
 }
@@ -170,7 +99,9 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
   std::unique_ptr<avoidance::Module> module;
   try {
     module = rows[static_cast<size_t>(row - names.begin())]->make(parameters);
-  } catch (const std::invalid_argument& bad) {
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& bad) {
     refuse(config, bad.what());
   }
   parameters.finish();
@@ -178,21 +109,23 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
   return module;
 }
 
-std::unique_ptr<avoidance::Module> make_plugin_module(const PluginConfig& config) {
-  std::unique_ptr<avoidance::Module> module;
+std::unique_ptr<avoidance::Module> make_plugin_module(const PluginConfig& config, const std::filesystem::path& folder) {
+  if (config.in_process) return load_module(config);
+  PluginConfig whole = config;  // its process works in another folder
+  whole.plugin = std::filesystem::absolute(config.plugin);
   try {
-    call_guarded(config.limit_s, [&] { module = load_module(config); });
-  } catch (const CallBroken& broken) {
-    refuse(config, fmt::format("{} while it was loaded", broken.what()));
+    return make_module_process([&whole] { return load_module(whole); },
+                               {.name = config.module, .limit_s = config.limit_s, .folder = folder});
+  } catch (const std::invalid_argument& fault) {
+    refuse(config, fmt::format("{} while it was loaded", fault.what()));
   }
-  return std::make_unique<GuardedModule>(std::move(module), config);
 }
 
 }  // namespace
 
-std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config) {
-  if (const PluginConfig* plugin = config.plugin()) return make_plugin_module(*plugin);
-  if (const PythonConfig* script = config.python()) return make_python_module(*script);
+std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config, const std::filesystem::path& folder) {
+  if (const PluginConfig* plugin = config.plugin()) return make_plugin_module(*plugin, folder);
+  if (const PythonConfig* script = config.python()) return make_python_module(*script, folder);
   return config.make();
 }
 

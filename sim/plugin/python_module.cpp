@@ -12,6 +12,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/plugin/module_process.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -93,19 +94,26 @@ PythonMaker load_maker(const PythonConfig& config) {
 
 void set_python_maker(PythonMaker maker) { known_maker() = std::move(maker); }
 
-std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config) {
+std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config, const fs::path& folder) {
   if (config.parameters.kind != Node::Kind::null && config.parameters.kind != Node::Kind::map) {
     refuse(config, "'parameters' must be a map, got " + config.parameters.description());
   }
-  if (!known_maker()) set_python_maker(load_maker(config));
   const std::string parameters =
       config.parameters.kind == Node::Kind::map ? to_json(config.parameters).dump() : std::string("{}");
-  try {
-    auto module = known_maker()({fs::absolute(config.python).string(), config.class_name, parameters});
+  const PythonRequest request{fs::absolute(config.python).string(), config.class_name, parameters};
+  const auto make = [&] {
+    if (!known_maker()) set_python_maker(load_maker(config));
+    auto module = known_maker()(request);
     // Validate its needs and signals before the flight.
     static_cast<void>(module->needs());
     static_cast<void>(module->signals());
     return module;
+  };
+  try {
+    if (config.in_process || known_maker()) return make();
+    return make_module_process(make, {.name = config.class_name, .limit_s = config.limit_s, .folder = folder});
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& fault) {
     refuse(config, fault.what());
   }

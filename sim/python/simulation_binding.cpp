@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/python/bindings.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/labels_file.h"
@@ -142,8 +143,8 @@ class PySimulation {
   }
   sim::RunInfo info() {
     const sim::Scenario& scenario = get().scenario();
-    std::string line = fmt::format("hedgehop run {} --seed {}", file_, scenario.seed);
-    for (const std::string& text : overrides_) line += fmt::format(" --set '{}'", text);
+    std::string line = fmt::format("hedgehop run {} --seed {}", sim::shell_quoted(file_), scenario.seed);
+    for (const std::string& text : overrides_) line += " --set " + sim::shell_quoted(text);
     if (is_steered_) line += " # but controlled from Python";
     return {scenario.name, scenario.seed, std::string(sim::version()), std::string(sim::build_identity()), inputs_,
             file_,         line,          sim::to_yaml(scenario)};

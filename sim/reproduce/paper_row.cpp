@@ -9,6 +9,7 @@
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/record/table.h"
 
 namespace hedgehop::sim {

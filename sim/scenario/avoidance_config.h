@@ -28,6 +28,7 @@ struct PluginConfig {
   std::filesystem::path plugin;
   std::string module;
   double limit_s = 10.0;
+  bool in_process = false;
   Node parameters;
 };
 template <class Visitor>
@@ -39,6 +40,7 @@ void describe(Visitor& v, fields::ConfigOf<PluginConfig> auto& c) {
      .above = 0.0,
      .at_most = 3600.0,
      .meaning = "maximum wall time of a call; a slower module counts as hung"});
+  v("in_process", c.in_process, {.meaning = "whether it runs in the simulator's process, without protection"});
   v("parameters", c.parameters, {.meaning = "the module's own parameters"});
 }
 
@@ -50,12 +52,20 @@ struct PythonConfig {
 
   std::filesystem::path python;
   std::string class_name;
+  double limit_s = 10.0;
+  bool in_process = false;
   Node parameters;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PythonConfig> auto& c) {
   v("python", c.python, {.required = true, .meaning = "source file, relative to this file"});
   v("class", c.class_name, {.required = true, .meaning = "class of the module"});
+  v("limit", c.limit_s,
+    {.unit = "s",
+     .above = 0.0,
+     .at_most = 3600.0,
+     .meaning = "maximum wall time of a call; a slower module counts as hung"});
+  v("in_process", c.in_process, {.meaning = "whether it runs in the simulator's process, without protection"});
   v("parameters", c.parameters, {.meaning = "keyword arguments of the class"});
 }
 

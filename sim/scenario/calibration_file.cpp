@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <regex>
 #include <string_view>
 
 #include "sim/config/config_tree.h"
@@ -186,10 +185,9 @@ std::vector<CalibratedCamera> read_chain(const Node& root) {
     if (map.kind != Node::Kind::map || !map.find("camera_model") || !map.find("intrinsics")) continue;
     CalibratedCamera camera{.name = key, .role = key, .config = {}, .rate_hz = {}};
     // "/left/image_raw" is the camera left.
-    static const std::regex kTopic("(?:^|.*/)([^/]+)/[^/]+");
-    std::smatch found;
-    const std::string topic(text_of(map.find("rostopic")));
-    if (std::regex_match(topic, found, kTopic)) camera.role = found[1];
+    const std::filesystem::path topic(text_of(map.find("rostopic")));
+    if (topic.has_filename() && topic.parent_path().has_filename())
+      camera.role = topic.parent_path().filename().string();
     read_named_model(map, camera.config);
     if (const Node* const pose = map.find("T_cam_imu")) {
       camera.config.camera_from_imu = numbers(*pose, 16, "T_cam_imu");

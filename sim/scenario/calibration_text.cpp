@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <opencv2/core/persistence.hpp>
-#include <regex>
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
@@ -43,7 +42,10 @@ Node parse_xml(const std::string& text, const std::string& file) {
 
 /// Parses YAML with OpenCV's header and tags, which standard YAML lacks.
 Node parse_yaml_of_opencv(std::string text, const std::string& file) {
-  text = std::regex_replace(text, std::regex("!!opencv-[a-z-]+"), "");
+  constexpr std::string_view kTag = "!!opencv-";
+  for (size_t at = text.find(kTag); at != std::string::npos; at = text.find(kTag, at)) {
+    text.erase(at, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + kTag.size()) - at);
+  }
   if (text.starts_with("%YAML")) text.erase(0, std::min(text.find('\n'), text.size()));
   ErrorList errors("calibration");
   Node root = parse_yaml(text, file, errors);
@@ -60,9 +62,11 @@ Node parse_calibration_text(const std::string& text, const std::string& file) {
 }
 
 bool is_ocam_calibration(const std::string& text) {
-  static const std::regex kFirst(R"((?:\s*#[^\n]*\n|\s*\n)*\s*[-+.\d][-+.\deE \t]*(?:\r?\n[\s\S]*)?)");
-  const std::string head = text.substr(0, text.find('\n', std::min<size_t>(text.size(), 2000)));
-  return std::regex_match(head, kFirst);
+  constexpr std::string_view kSpace = " \t\r\n\v\f", kStart = "+-.0123456789", kNumbers = "+-.0123456789eE \t\r";
+  size_t at = text.find_first_not_of(kSpace);
+  while (at != std::string::npos && text[at] == '#') at = text.find_first_not_of(kSpace, text.find('\n', at));
+  if (at == std::string::npos || kStart.find(text[at]) == std::string_view::npos) return false;
+  return text.find_first_not_of(kNumbers, at) >= text.find('\n', at);
 }
 
 }  // namespace hedgehop::sim

@@ -49,6 +49,31 @@ const SensorName* sensor_of(std::string_view what) {
   return found == kSensors.end() ? nullptr : found;
 }
 
+/// Returns whether a flight reads the instrument. A failure of any other has no effect.
+bool is_on_board(Instrument instrument, const FailingParts& parts) {
+  const dynamics::AvionicsConfig& avionics = parts.avionics;
+  switch (instrument) {
+    case Instrument::gyros:
+    case Instrument::accelerometers:
+      return true;
+    case Instrument::gps:
+      return avionics.gps.enabled;
+    case Instrument::gps_velocity:
+      return avionics.gps.enabled && avionics.navigation.use_gps_velocity;
+    case Instrument::height_sensor:
+      return avionics.height_sensor.ranger.enabled;
+    case Instrument::magnetometer:
+      return avionics.magnetometer.enabled;
+    case Instrument::barometer:
+      return avionics.barometer.enabled;
+    case Instrument::range_finder:
+      return avionics.range_finder.ranger.enabled;
+    case Instrument::velocimeter:
+      return parts.velocimeter;
+  }
+  return true;
+}
+
 std::vector<Mode> modes_of(std::string_view what) {
   if (const SensorName* sensor = sensor_of(what)) {
     if (sensor->may_be_off) return {Mode::off, Mode::stuck, Mode::bias, Mode::noise};
@@ -71,11 +96,13 @@ int64_t to_ns(double t_s) { return std::llround(t_s * 1e9); }
 int64_t FailureConfig::from_ns() const { return to_ns(at_s); }
 int64_t FailureConfig::until_ns() const { return until_s ? to_ns(*until_s) : std::numeric_limits<int64_t>::max(); }
 
-std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::VehicleConfig& vehicle) {
+std::vector<std::string> failing_names(const FailingParts& parts) {
   std::vector<std::string> names;
-  for (const SensorName& sensor : kSensors) names.emplace_back(sensor.name);
-  for (const CameraConfig& camera : rig.cameras) names.push_back(fmt::format("{}{}", kCamera, camera.role));
-  if (const auto* multicopter = std::get_if<dynamics::multicopter::MulticopterConfig>(&vehicle)) {
+  for (const SensorName& sensor : kSensors) {
+    if (is_on_board(sensor.instrument, parts)) names.emplace_back(sensor.name);
+  }
+  for (const CameraConfig& camera : parts.rig.cameras) names.push_back(fmt::format("{}{}", kCamera, camera.role));
+  if (const auto* multicopter = std::get_if<dynamics::multicopter::MulticopterConfig>(&parts.vehicle)) {
     for (size_t i = 0; i < multicopter->arms.size(); ++i) names.push_back(fmt::format("{}{}", kMotor, i));
   } else {
     names.insert(names.end(), kServos.begin(), kServos.end());
@@ -84,10 +111,10 @@ std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::Veh
   return names;
 }
 
-std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
-                                       const dynamics::VehicleConfig& vehicle) {
+std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s,
+                                       const FailingParts& parts) {
   std::vector<FieldError> errors;
-  const std::vector<std::string> names = failing_names(rig, vehicle);
+  const std::vector<std::string> names = failing_names(parts);
   const std::vector<std::string_view> allowed(names.begin(), names.end());
   for (size_t i = 0; i < failures.size(); ++i) {
     const FailureConfig& f = failures[i];
@@ -99,7 +126,8 @@ std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, 
     if (f.until_s && *f.until_s > duration_s)
       add("until", fmt::format("is after the end of the flight ({} s)", duration_s));
     if (std::ranges::find(names, f.what) == names.end()) {
-      add("what", fmt::format("unknown device '{}'{}", f.what, suggestion(f.what, allowed)));
+      const std::string fault = sensor_of(f.what) ? "'{}' is not on board or is not used" : "unknown device '{}'";
+      add("what", fmt::format(fmt::runtime(fault + "{}"), f.what, suggestion(f.what, allowed)));
       continue;
     }
     const std::vector<Mode> modes = modes_of(f.what);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/actuators.h"
+#include "dynamics/avionics.h"
 #include "dynamics/sensors/sensor_errors.h"
 #include "dynamics/vehicle.h"
 #include "sim/config/input_error.h"
@@ -58,13 +59,20 @@ void describe(Visitor& v, fields::ConfigOf<FailureConfig> auto& c) {
      .meaning = "axis of a bias: forward, right, down (gyros, accelerometers, velocimeter); north, east, down (gps)"});
 }
 
-/// Returns the valid names of a scenario's failing devices.
-std::vector<std::string> failing_names(const RigConfig& rig, const dynamics::VehicleConfig& vehicle);
+/// The parts of a scenario that may fail.
+struct FailingParts {
+  const RigConfig& rig;
+  const dynamics::VehicleConfig& vehicle;
+  const dynamics::AvionicsConfig& avionics;
+  bool velocimeter = true;  ///< whether optic flow measures velocity
+};
+/// Returns the valid names of a scenario's failing devices: those on board.
+std::vector<std::string> failing_names(const FailingParts& parts);
 
 /// Returns the errors of a scenario's failures: names, modes, values, times, and two failures of one device at a time.
 /// The paths begin with "failures".
-std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s, const RigConfig& rig,
-                                       const dynamics::VehicleConfig& vehicle);
+std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, double duration_s,
+                                       const FailingParts& parts);
 
 /// Returns "20 s to 22 s: camera.front black".
 std::string to_text(const FailureConfig& failure);

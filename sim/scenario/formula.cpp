@@ -12,7 +12,8 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr int kMaxDepth = 100;  // nested parts, such as parentheses
+constexpr int kMaxDepth = 100;       // nested parts, such as parentheses
+constexpr int kMaxOperators = 1000;  // a chain of them is a tree of that depth
 
 /// The content of parentheses; the parser knows which of both only at their end.
 using Value = std::variant<Expression, Formula>;
@@ -183,6 +184,7 @@ class Parser {
   }
 
   Formula joined(Formula::Kind kind, Value left, Value right) {
+    count_operator();
     Formula formula{.kind = kind};
     formula.of.push_back(formula_of(std::move(left)));
     formula.of.push_back(formula_of(std::move(right)));
@@ -190,10 +192,17 @@ class Parser {
   }
 
   Expression computed(Expression::Kind kind, Value left, Value right) {
+    count_operator();
     Expression expression{.kind = kind};
     expression.of.push_back(expression_of(std::move(left)));
     expression.of.push_back(expression_of(std::move(right)));
     return expression;
+  }
+
+  void count_operator() {
+    if (++operators_ > kMaxOperators) {
+      tokens_.refuse(fmt::format("more than {} operators; write several checks", kMaxOperators));
+    }
   }
 
   Formula formula_of(Value value) {
@@ -217,7 +226,7 @@ class Parser {
   };
 
   Tokens tokens_;
-  int depth_ = 0;
+  int depth_ = 0, operators_ = 0;
 };
 
 }  // namespace

@@ -132,6 +132,10 @@ dynamics::VehicleConfig load_vehicle(const std::filesystem::path& file) {
   ErrorList errors("vehicle");
   const Node root = load_tree(file, errors);
   if (root.kind != Node::Kind::map) errors.throw_if_any();
+  if (root.find("vehicle")) {
+    throw InputError(fmt::format(
+        "{}: is a scenario; a vehicle file is needed, such as the one that its key 'vehicle' uses", file.string()));
+  }
   dynamics::VehicleConfig vehicle;
   read_value(root, "", {.meaning = "a vehicle"}, vehicle, errors);
   errors.throw_if_any();

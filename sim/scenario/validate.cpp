@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "avoidance/module.h"
+#include "sim/config/names.h"
 #include "sim/fields/bounds.h"
 #include "sim/scenario/avoidance_config.h"
 #include "sim/scenario/rates.h"
@@ -39,13 +40,7 @@ class Validator {
 
   /// The name is also the name of the folder of results.
   void name() {
-    constexpr size_t kMaxLetters = 200;
-    const std::string& name = scenario_.name;
-    const bool has_bad = std::ranges::any_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '/'; });
-    if (has_bad || name.empty() || name.starts_with('.') || name.size() > kMaxLetters) {
-      add("name", fmt::format("must be 1 to {} letters without '/' and control characters, and not begin with '.'",
-                              kMaxLetters));
-    }
+    if (std::string fault = name_fault(scenario_.name); !fault.empty()) add("name", std::move(fault));
   }
 
   void altitudes() {
@@ -127,6 +122,7 @@ class Validator {
     build("avoidance", [&] {
       module_ = scenario_.avoidance.make();
       if (!module_) return;
+      if (std::string fault = signal_fault(module_->signals()); !fault.empty()) add("avoidance", std::move(fault));
       for (const avoidance::CameraNeed& need : module_->needs().cameras) {
         for (const std::string& fault : scenario_.rig.lacks(need.role, need.channel, need.pinhole))
           add("avoidance", fault);
@@ -141,7 +137,8 @@ class Validator {
   }
 
   void failures() {
-    add_all(failure_errors(scenario_.failures, scenario_.duration_s, scenario_.rig, scenario_.vehicle));
+    add_all(failure_errors(scenario_.failures, scenario_.duration_s,
+                           {scenario_.rig, scenario_.vehicle, scenario_.avionics, scenario_.velocimeter.enabled}));
   }
 
   void parts() {
@@ -229,6 +226,23 @@ class Validator {
 };
 
 }  // namespace
+
+std::string signal_fault(std::span<const avoidance::Signal> signals) {
+  constexpr std::string_view kOwnColumns[] = {
+      "t_s", "status", "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad"};
+  for (const avoidance::Signal& signal : signals) {
+    if (const std::string fault = name_fault(signal.name); !fault.empty()) {
+      return fmt::format("signal '{}' of the module: {}", signal.name.substr(0, 40), fault);
+    }
+    if (std::ranges::find(kOwnColumns, signal.name) != std::end(kOwnColumns)) {
+      return fmt::format("signal '{}' of the module: is a column of the record itself; rename it", signal.name);
+    }
+    if (std::ranges::count(signals, signal.name, &avoidance::Signal::name) > 1) {
+      return fmt::format("signal '{}' of the module: occurs twice", signal.name);
+    }
+  }
+  return "";
+}
 
 Validation validate(Scenario& scenario, ModuleSource source) {
   Validator validator(scenario, source);

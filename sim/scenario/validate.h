@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "avoidance/module.h"
 #include "sim/config/input_error.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -21,6 +23,10 @@ enum class ModuleSource { scenario, caller };
 /// Checks the bounds of every field, mounts the rig (mount_rig()), then checks that the fields fit each other and that
 /// each part can be built. Returns all errors and the parts.
 Validation validate(Scenario& scenario, ModuleSource source = ModuleSource::scenario);
+
+/// Returns why the signals of a module cannot be columns of decisions.csv: a name that is no name, occurs twice, or is
+/// one of the record's own columns; "" if they can.
+std::string signal_fault(std::span<const avoidance::Signal> signals);
 
 /// Returns the errors of the checks: min above max, unknown names, missing files, times after the flight. The paths
 /// begin with "checks".

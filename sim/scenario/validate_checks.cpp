@@ -6,6 +6,7 @@
 #include <concepts>
 #include <variant>
 
+#include "sim/config/names.h"
 #include "sim/scenario/formula.h"
 #include "sim/scenario/reference_path.h"
 
@@ -63,6 +64,7 @@ class CheckValidator {
       add(path + ".name", fmt::format("is not a metric{}; the names of a module's own metrics begin with 'module.'",
                                       suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
     }
+    if (std::string fault = name_fault(check.name); !fault.empty()) add(path + ".name", std::move(fault));
     if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");
     if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
       add(path + ".at_most", "must not be less than 'at_least'");
@@ -72,7 +74,7 @@ class CheckValidator {
     unless_valid(path + ".reference", [&] { read_reference_path(check.reference); });
   }
   void check(const std::string& path, const FormulaCheck& check) {
-    if (check.name.empty()) add(path + ".name", "must not be empty");
+    if (std::string fault = name_fault(check.name); !fault.empty()) add(path + ".name", std::move(fault));
     if (check.name == NoCollisionCheck::kName || std::ranges::count(scenario_.checks, check.name, check_name) > 1) {
       add(path + ".name", fmt::format("'{}' is another check's name", check.name));
     }

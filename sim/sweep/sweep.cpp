@@ -10,6 +10,7 @@
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {

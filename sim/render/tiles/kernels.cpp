@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/config/input_error.h"
+
 namespace hedgehop::sim::tiles {
 namespace {
 
@@ -42,7 +44,7 @@ const Kernels& chosen_kernels() {
         "is "
         "slow");
   }
-  throw std::runtime_error(
+  throw InputError(
       fmt::format("HEDGEHOP_TILES={}: unknown, or not supported by this processor; valid: avx512, avx2, plain "
                   "(default: the fastest)",
                   requested));

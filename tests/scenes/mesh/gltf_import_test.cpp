@@ -274,5 +274,23 @@ TEST_F(GltfImport, RefusesDamagedFiles) {
               ThrowsMessage<E>(HasSubstr("its buffer 'gone.bin': there is no such file")));
 }
 
+TEST_F(GltfImport, RefusesABinaryFileThatIsShorterThanItAnnounces) {
+  const auto number = [](uint32_t n) { return std::string(reinterpret_cast<const char*>(&n), sizeof n); };
+  const auto fault = [&](uint32_t whole, uint32_t chunk) {
+    const std::string file = "glTF" + number(2) + number(whole) + number(chunk) + "JSON";
+    const ImportConfig config{.file = write("short.glb", file)};
+    try {
+      imported(config);
+    } catch (const E& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  for (const uint32_t huge : {0x7fffffffu, 0xffffffffu, 21u}) {
+    EXPECT_THAT(fault(20, huge), HasSubstr("is shorter than its chunks")) << huge;
+    EXPECT_THAT(fault(huge, 0), HasSubstr("is shorter than its chunks")) << huge;
+  }
+}
+
 }  // namespace
 }  // namespace hedgehop::scenes::mesh

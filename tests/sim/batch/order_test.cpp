@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sim/batch/seeds.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {

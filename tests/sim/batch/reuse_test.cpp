@@ -12,6 +12,35 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// The second command is refused before it changes anything; a killed command leaves no lock.
+TEST(Reuse, TwoCommandsCannotWriteIntoOneFolder) {
+  const CampaignFolder folder;
+  const std::string worker =
+      folder.worker("[ -e second ] || { touch second; $PWD/again.sh; }; fly \"$@\"");  // during the first flight
+  folder.write("again.sh", "#!/bin/sh\n" HEDGEHOP_PROGRAM
+                           " batch tiny.yaml --seeds 1:2 --out out >again.txt 2>&1; echo $? >>again.txt\n");
+  std::filesystem::permissions(folder.path() / "again.sh", std::filesystem::perms::owner_all);
+  const CommandEnd first = folder.hedgehop("batch tiny.yaml --seeds 1:2 -j 1 --out out --program " + worker);
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(folder.read("again.txt"),
+              testing::MatchesRegex("out: in use by another hedgehop command \\(process [0-9]+\\); "
+                                    "wait for its end or choose another --out\n2\n"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/.hedgehop.lock"));
+
+  const std::string killed = folder.worker("kill -KILL $PPID");
+  EXPECT_NE(folder.hedgehop("batch tiny.yaml --out torn --program " + killed).status, 0);
+  EXPECT_EQ(folder.hedgehop("batch tiny.yaml --out torn").status, 0);
+}
+
+TEST(Reuse, AFileNameThatBeginsLikeAnOptionIsAFile) {
+  const CampaignFolder folder;
+  folder.write("-dash.yaml", folder.read("tiny.yaml"));
+  const CommandEnd end = folder.hedgehop("batch ./-dash.yaml --out out");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(folder.json("out/batch.json")["flights"][0]["command"].get<std::string>(),
+              HasSubstr("hedgehop run ./-dash.yaml --seed"));
+}
+
 TEST(Reuse, AChangedScenarioIsFlownAgain) {
   const CampaignFolder folder;
   const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");

@@ -148,6 +148,7 @@ TEST(BatchUntil, RejectsBadRulesInOneLineBeforeAnyFlight) {
         Row{"--until 'collision < 1'", "the limit of a rate must be > 0 and < 1"},
         Row{"--until 'collision < x'", "'collision < x': 'x' is not a finite number"},
         Row{"--until 'collision'", "'collision': expected such as 'collision < 0.01'"},
+        Row{"--until '" + std::string(60'000, 'a') + "'", "has 60000 letters; a claim has at most 200"},
         Row{"--until 'rate(min_clearence_m < 1) < 0.1'", "did you mean 'min_clearance_m'?"},
         Row{"--until-width 0 --of success", "--until-width 0: the width must be > 0 and < 1"},
         Row{"--until-width 0.1 --of sucess", "did you mean 'success'?"},

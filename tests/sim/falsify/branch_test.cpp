@@ -52,10 +52,12 @@ TEST_F(Branch, RejectsChangesThatAffectEarlierTimes) {
   };
   EXPECT_THAT(fault("--at 1 --set wind.speed=3"),
               HasSubstr("in flight may change: avoidance, failures that begin later"));
-  EXPECT_THAT(fault("--at 1 --set 'failures=[{at: 0.5, what: gps, mode: off}]'"), HasSubstr("begins before 1 s"));
+  EXPECT_THAT(fault("--at 1 --set 'failures=[{at: 0.5, what: height_sensor, mode: off}]'"),
+              HasSubstr("begins before 1 s"));
   EXPECT_THAT(fault("--at 7"), HasSubstr("--at 7: the flight has ended at 3 s"));
   EXPECT_THAT(fault("--at 1 --set avoidance.sped=3"), HasSubstr("did you mean 'speed'?"));
-  ASSERT_LT(folder.hedgehop("branch run --at 1 --set 'failures=[{at: 2, what: gps, mode: off}]' --out later").status,
+  ASSERT_LT(folder.hedgehop("branch run --at 1 --set 'failures=[{at: 2, what: height_sensor, mode: off}]' --out later")
+                .status,
             2);
 }
 

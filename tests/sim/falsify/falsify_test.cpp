@@ -121,6 +121,21 @@ TEST_F(Falsify, RejectsBadInputInOneLineBeforeAnyFlight) {
               HasSubstr("looks 20 s ahead, which is longer than the flight (12 s)"));
 }
 
+TEST_F(Falsify, FlightsThatAreNotFlownLeaveTheSearchUndecided) {
+  const std::string clear = "falsify search.yaml --set 'boxes.east=[8,14]' --set parameters=[] --set design.budget=6";
+  const std::string worker = folder.worker("mkdir first 2>/dev/null && exit 2; fly \"$@\"");
+  const CommandEnd end = folder.hedgehop(clear + " --out some -j 1 --program " + worker);
+  EXPECT_EQ(end.status, 4) << end.out;
+  EXPECT_THAT(end.out, HasSubstr("1 of 6 flights were not flown"));
+  EXPECT_THAT(end.out, HasSubstr("no failure in 5 flights"));
+  EXPECT_EQ(folder.json("some/falsify.json")["flights_not_flown"], 1);
+  // A limit that stops every flight confirms nothing.
+  const std::string dead = folder.worker("kill -KILL $$");
+  const CommandEnd none = folder.hedgehop("falsify search.yaml --set design.budget=4 --out none --program " + dead);
+  EXPECT_EQ(none.status, 4) << none.out;
+  EXPECT_EQ(folder.json("none/falsify.json")["failures"], 0);
+}
+
 TEST_F(Falsify, RejectsTheFolderOfAnotherSearch) {
   ASSERT_EQ(folder.hedgehop("falsify search.yaml --out out --set design.budget=3 --set boxes.east=[8,14]").status, 0);
   folder.write("search.yaml", search(", seed: 2"));

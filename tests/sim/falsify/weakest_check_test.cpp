@@ -40,18 +40,24 @@ TEST(WeakestCheck, IsNegativeIfAndOnlyIfTheCheckFails) {
 TEST(WeakestCheck, HasTheMinimumRobustnessOfTheSelectedChecks) {
   const FlightRecord record = flown({check("a", true, 3.0, 1.0, "m", ">="), check("b", true, 1.5, 1.0, "m", ">="),
                                      check("c", false, 0.0, 1.0, "m", ">=")});
-  EXPECT_EQ(weakest_check(record, {}).name, "c");
-  EXPECT_EQ(weakest_check(record, {"a", "b"}).name, "b");
-  EXPECT_DOUBLE_EQ(weakest_check(record, {"a", "b"}).robustness, 0.5);
+  EXPECT_EQ(weakest_check(record, {})->name, "c");
+  EXPECT_EQ(weakest_check(record, {"a", "b"})->name, "b");
+  EXPECT_DOUBLE_EQ(weakest_check(record, {"a", "b"})->robustness, 0.5);
   EXPECT_EQ(decided_s(record, "b"), 3.5);
 }
 
-TEST(WeakestCheck, ACrashFailsAndAnInvalidScenarioPasses) {
+TEST(WeakestCheck, AFlightThatWasNotFlownNeitherPassesNorFails) {
   FlightRecord record{.status = FlightRecord::Status::failed, .cause = "killed by SIGSEGV (Segmentation fault)"};
-  EXPECT_EQ(weakest_check(record, {}).name, "flight");
-  EXPECT_LT(weakest_check(record, {}).robustness, 0.0);
+  EXPECT_FALSE(weakest_check(record, {}));
   record.cause = "exit status 2: 'start': the vehicle collides at the start";
-  EXPECT_GT(weakest_check(record, {}).robustness, 10.0);
+  EXPECT_FALSE(weakest_check(record, {}));
+}
+
+TEST(WeakestCheck, AFaultOfTheModuleFails) {
+  FlightRecord record = flown({check("a", true, 3.0, 1.0, "m", ">=")});
+  record.result->flight.outcome = Outcome::fault;
+  EXPECT_EQ(weakest_check(record, {})->name, "flight");
+  EXPECT_LT(weakest_check(record, {})->robustness, 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 // A module from outside that fails in the way its parameters say.
+#include <pthread.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -14,8 +18,29 @@ struct MisbehavingConfig {
   static constexpr std::string_view kName = "misbehaving";
   static constexpr std::string_view kMeaning = "fails as it is told to";
 
-  enum class How { behave, raise_exception, segfault, abort, recurse, hang, not_finite, refuse };
+  enum class How {
+    behave,
+    raise_exception,
+    segfault,
+    abort,
+    recurse,
+    hang,
+    not_finite,
+    refuse,
+    exit,
+    end_at_once,
+    end_quickly,
+    end_thread,
+    throw_int,
+    change_folder,
+    fork,
+    print,
+    close_files,
+    stop
+  };
+  enum class Where { update, make, needs, signals, reset, metrics, map, annotate, end };
   How how = How::behave;
+  Where where = Where::update;
   int at = 3;
   double speed_mps = 1.0;
   std::vector<double> list = {1.0, 2.0};
@@ -25,8 +50,13 @@ struct MisbehavingConfig {
 template <class Visitor>
 void describe(Visitor& v, MisbehavingConfig& c) {
   v("how", c.how,
-    {.choices = {"behave", "raise_exception", "segfault", "abort", "recurse", "hang", "not_finite", "refuse"},
+    {.choices = {"behave", "raise_exception", "segfault", "abort", "recurse", "hang", "not_finite", "refuse", "exit",
+                 "end_at_once", "end_quickly", "end_thread", "throw_int", "change_folder", "fork", "print",
+                 "close_files", "stop"},
      .meaning = "which way"});
+  v("where", c.where,
+    {.choices = {"update", "make", "needs", "signals", "reset", "metrics", "map", "annotate", "end"},
+     .meaning = "in which call"});
   v("at", c.at, {.at_least = 1, .meaning = "which decision"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "ahead"});
   v("list", c.list, {.meaning = "numbers"});
@@ -44,15 +74,34 @@ class Misbehaving : public Module {
  public:
   explicit Misbehaving(const MisbehavingConfig& config) : config_(config) {
     if (config.how == MisbehavingConfig::How::refuse) throw std::invalid_argument("how: not today");
+    misbehave_in(MisbehavingConfig::Where::make);
   }
+  ~Misbehaving() override { misbehave_in(MisbehavingConfig::Where::end); }
 
  private:
-  Needs do_needs() const override { return {{{.role = "front"}}}; }
-  std::vector<Signal> do_signals() const override { return {{"AA", "m"}, {"aa", "m"}}; }  // a column each
-  void do_reset(const Setup&) override { decisions_ = 0; }
+  Needs do_needs() const override {
+    misbehave_in(MisbehavingConfig::Where::needs);
+    return {{{.role = "front"}}};
+  }
+  std::vector<Signal> do_signals() const override {
+    misbehave_in(MisbehavingConfig::Where::signals);
+    return {{"AA", "m"}, {"aa", "m"}};  // a column each
+  }
+  void do_reset(const Setup&) override {
+    misbehave_in(MisbehavingConfig::Where::reset);
+    decisions_ = 0;
+  }
+  Map do_map() const override {
+    misbehave_in(MisbehavingConfig::Where::map);
+    return {};
+  }
+  cv::Mat do_annotate() const override {
+    misbehave_in(MisbehavingConfig::Where::annotate);
+    return {};
+  }
 
   Decision do_update(const Observation& seen) override {
-    if (++decisions_ == config_.at) misbehave();
+    if (++decisions_ == config_.at) misbehave_in(MisbehavingConfig::Where::update);
     VelocityCommand command{.v_WB_W = {config_.speed_mps, 0.0}, .altitude_m = -seen.goal.p_WG.z()};
     if (decisions_ >= config_.at && config_.how == MisbehavingConfig::How::not_finite) {
       command.altitude_m = std::numeric_limits<double>::quiet_NaN();
@@ -60,16 +109,28 @@ class Misbehaving : public Module {
     return {.command = command, .status = "cruise", .signals = {1.0, 2.0}};
   }
 
-  void misbehave() {
+  void misbehave_in(MisbehavingConfig::Where where) const {
     using How = MisbehavingConfig::How;
+    if (config_.where != where) return;
+    if (config_.how == How::exit) std::exit(0);
+    if (config_.how == How::end_at_once) ::_exit(0);
+    if (config_.how == How::end_quickly) std::quick_exit(0);
+    if (config_.how == How::end_thread) ::pthread_exit(nullptr);
+    if (config_.how == How::throw_int) throw 42;
+    if (config_.how == How::change_folder && ::chdir("/") != 0) std::abort();
+    if (config_.how == How::fork && ::fork() < 0) std::abort();
+    if (config_.how == How::print) std::puts("text of the module");
+    if (config_.how == How::close_files) ::closefrom(0);
+    if (config_.how == How::stop) std::raise(SIGSTOP);
     if (config_.how == How::raise_exception) throw std::runtime_error("no idea");
     if (config_.how == How::segfault) *static_cast<volatile int*>(nullptr) = 1;
     if (config_.how == How::abort) std::abort();
-    if (config_.how == How::recurse) decisions_ += recurse(1);
+    if (config_.how == How::recurse) spins_ = spins_ + static_cast<unsigned>(recurse(1));
     while (config_.how == How::hang) spins_ = spins_ + 1;
   }
 
   std::vector<Metric> do_metrics() const override {
+    misbehave_in(MisbehavingConfig::Where::metrics);
     double sum = config_.flag ? 100.0 : 0.0;
     for (const double number : config_.list) sum += number;
     return {{"decisions_seen", static_cast<double>(decisions_), ""},
@@ -81,7 +142,7 @@ class Misbehaving : public Module {
 
   MisbehavingConfig config_;
   int decisions_ = 0;
-  volatile unsigned spins_ = 0;
+  mutable volatile unsigned spins_ = 0;
 };
 
 std::unique_ptr<Module> make(const MisbehavingConfig& config) { return std::make_unique<Misbehaving>(config); }

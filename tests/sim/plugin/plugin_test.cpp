@@ -1,7 +1,12 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "sim/batch/flight_table.h"
+#include "sim/record/flight_columns.h"
+#include "sim/scenario/validate.h"
 #include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim {
@@ -81,6 +86,77 @@ TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsTheFlownPart) {
     EXPECT_THAT(result["cause"].get<std::string>(), HasSubstr(cause));
     EXPECT_EQ(result["decisions"], 2) << how;
   }
+}
+
+/// Whatever a module does in any of its calls, the flight ends in a verdict, and nothing leaks out of its process.
+TEST_F(Plugin, NoCallOfAModuleCanPreventTheVerdict) {
+  struct Case {
+    std::string how, where;
+  };
+  std::vector<Case> cases;
+  for (const char* where : {"make", "needs", "signals", "reset", "map", "metrics", "annotate", "end"}) {
+    for (const char* how : {"throw_int", "exit", "segfault"}) cases.push_back({how, where});
+  }
+  for (const char* how : {"exit", "end_at_once", "end_quickly", "end_thread", "stop", "throw_int", "close_files"}) {
+    cases.push_back({how, "update"});
+  }
+  for (const auto& [how, where] : cases) {
+    std::filesystem::remove_all(folder.path() / "out");
+    const CommandEnd end = run("how: " + how + ", where: " + where);
+    const bool before_flight = where == "make" || where == "needs" || where == "signals" || where == "reset";
+    const bool in_flight = where == "update" || where == "map" || where == "metrics";
+    EXPECT_EQ(end.status, before_flight ? 2 : in_flight ? 1 : 0) << how << " in " << where << ": " << end.err;
+    if (before_flight) {
+      EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << how << " in " << where;
+    } else {
+      EXPECT_EQ(folder.json("out/result.json")["outcome"] == "fault", in_flight) << how << " in " << where;
+    }
+  }
+}
+
+TEST_F(Plugin, FilmsDoNotChangeAFlightWhoseAnnotationFails) {
+  for (const std::string how : {"raise_exception", "throw_int"}) {
+    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: " + how + ", where: annotate}");
+    ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --out film").status, 0);
+    ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --no-video --out none").status, 0);
+    EXPECT_EQ(folder.json("film/result.json")["trajectory_hash"], folder.json("none/result.json")["trajectory_hash"]);
+  }
+}
+
+TEST_F(Plugin, ChangesOfItsProcessStayThere) {
+  ASSERT_EQ(run("how: behave").status, 0);
+  const auto hash = folder.json("out/result.json")["trajectory_hash"];
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/module"));
+  for (const std::string how : {"change_folder", "fork", "print"}) {
+    const CommandEnd end = run("how: " + how, "--json");
+    EXPECT_EQ(end.status, 0) << how << end.err;
+    EXPECT_EQ(nlohmann::json::parse(end.out)["trajectory_hash"], hash) << how;
+    EXPECT_EQ(folder.json("out/result.json")["trajectory_hash"], hash) << how;
+  }
+  EXPECT_EQ(folder.read("out/module/module.log"), "text of the module\n");
+}
+
+TEST_F(Plugin, FliesTheSameInTheSimulatorsProcess) {
+  ASSERT_EQ(run("speed: 0.5").status, 0);
+  const auto hash = folder.json("out/result.json")["trajectory_hash"];
+  ASSERT_EQ(run("speed: 0.5", "--set avoidance.in_process=true").status, 0);
+  EXPECT_EQ(folder.json("out/result.json")["trajectory_hash"], hash);
+}
+
+TEST_F(Plugin, ASignalCannotTakeAColumnOfTheRecord) {
+  // The names are checked before the flight; decision_columns() has the reserved ones.
+  const Table columns = decision_columns(Flight{});
+  for (const std::string& column : columns.names()) {
+    const avoidance::Signal signal{column, ""};
+    EXPECT_THAT(signal_fault({&signal, 1}), HasSubstr("is a column of the record itself")) << column;
+  }
+  for (const std::string name : {"", "a/b", "..", "two\nlines"}) {
+    const avoidance::Signal signal{name, ""};
+    EXPECT_NE(signal_fault({&signal, 1}), "") << name;
+  }
+  const avoidance::Signal twice[] = {{"gap_m", "m"}, {"gap_m", "m"}};
+  EXPECT_THAT(signal_fault(twice), HasSubstr("occurs twice"));
 }
 
 TEST_F(Plugin, InABatchTheOthersFlyOn) {

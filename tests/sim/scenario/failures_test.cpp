@@ -41,6 +41,13 @@ TEST(Failures, OfUnknownThingsNameTheNearest) {
               ElementsAre(HasSubstr("unknown device 'motor.0'")));  // of a helicopter
 }
 
+TEST(Failures, OfInstrumentsThatAreNotOnBoardHaveNoEffectAndAreRefused) {
+  for (const std::string what : {"barometer", "range_finder"}) {
+    EXPECT_THAT(faults_with("[{at: 1, what: " + what + ", mode: off}]"),
+                ElementsAre(HasSubstr("'" + what + "' is not on board or is not used")));
+  }
+}
+
 TEST(Failures, MustFitTheirTimesModesAndValues) {
   EXPECT_THAT(faults_with("[{at: 1e4, what: gps, mode: off}]"),
               ElementsAre(HasSubstr("must be before the end of the flight")));
@@ -52,7 +59,7 @@ TEST(Failures, MustFitTheirTimesModesAndValues) {
   EXPECT_THAT(faults_with("[{at: 5, what: gps, mode: off, value: 1}]"), ElementsAre(HasSubstr("is not for mode off")));
   EXPECT_THAT(faults_with("[{at: 5, what: gps, mode: noise, value: -1}]"),
               ElementsAre(HasSubstr("at least 0, got -1")));
-  EXPECT_THAT(faults_with("[{at: 5, what: barometer, mode: bias, value: 1, axis: y}]"),
+  EXPECT_THAT(faults_with("[{at: 5, what: height_sensor, mode: bias, value: 1, axis: y}]"),
               ElementsAre(HasSubstr("no such axis")));
 }
 

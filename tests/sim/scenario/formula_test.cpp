@@ -47,6 +47,14 @@ TEST(Formula, FaultsNameTheColumnAndTheNearestSignal) {
   EXPECT_THAT(fault(""), HasSubstr("column 1: expected a number or a signal"));
   EXPECT_THAT(fault(std::string(10'000, '(')), HasSubstr("nested too deep"));
   EXPECT_THAT(fault(std::string(10'000, '-')), HasSubstr("nested too deep"));
+  for (const std::string link : {" and ", " or ", " -> ", " until "}) {
+    std::string chain = "speed < 1";
+    for (int i = 0; i < 30'000; ++i) chain += link + "speed < 1";
+    EXPECT_NE(fault(chain), "") << link;
+  }
+  std::string sum = "speed";
+  for (int i = 0; i < 30'000; ++i) sum += " + speed";
+  EXPECT_THAT(fault(sum + " < 1"), HasSubstr("more than 1000 operators; write several checks"));
 }
 
 TEST(Formula, HorizonSumsAlongNestedIntervals) {

@@ -1,0 +1,82 @@
+#include "sim/config/folder_lock.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "sim/config/input_error.h"
+
+namespace hedgehop::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+struct LockTest : ::testing::Test {
+  const fs::path root = fs::path(::testing::TempDir()) / ("folder_lock_" + std::to_string(::getpid()));
+  LockTest() { fs::create_directory(root); }
+  ~LockTest() override { fs::remove_all(root); }
+
+  /// Returns the fault that a second lock prints, or "".
+  template <class... Part>
+  std::string fault(const fs::path& folder, Part... part) {
+    try {
+      const FolderLock lock(folder, part...);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+};
+
+TEST_F(LockTest, SecondHolderIsRefusedWithTheProcessOfTheFirst) {
+  const FolderLock first(root / "a");
+  EXPECT_THAT(fault(root / "a"), HasSubstr("a: in use by another hedgehop command (process " +
+                                           std::to_string(::getpid()) + "); wait for its end or choose another --out"));
+  EXPECT_EQ(fault(root / "b"), "");
+}
+
+TEST_F(LockTest, PartsExcludeTheWholeButNotEachOther) {
+  std::optional<FolderLock> one(std::in_place, root / "a", "shard-1-of-2");
+  EXPECT_EQ(fault(root / "a", "shard-2-of-2"), "");
+  EXPECT_NE(fault(root / "a", "shard-1-of-2"), "");
+  EXPECT_NE(fault(root / "a"), "");
+  one.reset();
+  EXPECT_EQ(fault(root / "a"), "");
+}
+
+TEST_F(LockTest, LeavesNoFilesAndNoEmptyFolders) {
+  { const FolderLock lock(root / "new/inner"); }
+  EXPECT_TRUE(fs::is_empty(root));
+  {
+    const FolderLock lock(root / "new/inner");
+    std::ofstream(root / "new/inner/result.json") << "{}";
+  }
+  EXPECT_TRUE(fs::exists(root / "new/inner/result.json"));
+  EXPECT_FALSE(fs::exists(root / "new/inner/.hedgehop.lock"));
+}
+
+TEST_F(LockTest, IsReleasedWhenItsProcessIsKilled) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t holder = ::fork();
+  if (holder == 0) {
+    const FolderLock lock(root / "a");
+    if (::write(ready[1], "x", 1) == 1) ::pause();
+    ::_exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_THAT(fault(root / "a"), HasSubstr(std::to_string(holder)));
+  ::kill(holder, SIGKILL);
+  ::waitpid(holder, nullptr, 0);
+  EXPECT_EQ(fault(root / "a"), "");
+}
+
+}  // namespace
+}  // namespace hedgehop::sim
