@@ -21,7 +21,7 @@ std::optional<LevelScan> level_scan(const cv::Mat& depth_m, const vision::camera
   scan.X_ECl.linear().col(2) = up_E;
   scan.X_ECl.translation() = X_EC.translation();
 
-  const double left_px = lens.center_u_px + 0.5, right_px = depth_m.cols - 0.5 - lens.center_u_px;
+  const double left_px = lens.center_u_px, right_px = depth_m.cols - 1 - lens.center_u_px;
   scan.angle_min_rad = -std::atan(right_px / lens.focal_x_px);
   scan.angle_increment_rad = (std::atan(left_px / lens.focal_x_px) - scan.angle_min_rad) / (depth_m.cols - 1);
   const Eigen::Matrix3d R_CCl = X_EC.linear().transpose() * scan.X_ECl.linear();
