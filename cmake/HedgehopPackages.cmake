@@ -32,6 +32,10 @@ hedgehop_package(hedgehop_assimp assimp/Importer.hpp LIBRARIES assimp OPTIONAL)
 # Images in files: OpenCV's imgcodecs would load 76 more libraries.
 hedgehop_package(hedgehop_png png.h LIBRARIES png)
 hedgehop_package(hedgehop_turbojpeg turbojpeg.h LIBRARIES turbojpeg)
+# Checksums and compression of logs.
+hedgehop_package(hedgehop_zlib zlib.h LIBRARIES z)
+hedgehop_package(hedgehop_zstd zstd.h LIBRARIES zstd)
+hedgehop_package(hedgehop_lz4 lz4frame.h LIBRARIES lz4)
 hedgehop_package(hedgehop_tiff tiffio.h LIBRARIES tiff OPTIONAL)
 hedgehop_package(hedgehop_webp webp/decode.h LIBRARIES webp OPTIONAL)
 # Clearances must be accurate to 1 mm at a distance of 1 km from the origin, so Hedgehop uses Bullet's double-precision build,

@@ -52,6 +52,7 @@ void Avionics::reset(const SensedTruth& truth) {
   height_sensor_ = sensors::Ranger("height_sensor", config_.height_sensor.ranger, physics_dt_s_, seeds_.height_sensor);
   magnetometer_ = sensors::Magnetometer(config_.magnetometer, physics_dt_s_, seeds_.magnetometer);
   imu_reading_.reset();
+  gps_fix_.reset();
   failures_ = sensors::SensorFailures(failing_);
   reset_optional_sensors();
 
@@ -109,9 +110,9 @@ void Avionics::sense(int64_t t_ns, const SensedTruth& truth, const VelocitySenso
         failures_.deliver(Instrument::magnetometer, t_ns, magnetometer_.read(to_roll_pitch_heading(body.q_WB)[2]));
     if (heading_rad) navigation_.correct_heading(*heading_rad);
   }
-  if (due(gps_.period())) {
-    if (const std::optional<sensors::GpsFix> fix = read_gps(t_ns)) navigation_.correct_gps(*fix);
-  }
+  gps_fix_.reset();
+  if (due(gps_.period())) gps_fix_ = read_gps(t_ns);
+  if (gps_fix_) navigation_.correct_gps(*gps_fix_);
   if (range_finder_) sense_beam(t_ns, tick, truth);
   if (!flow_velocity) return;
   if (const std::optional<VelocityReading> reading = flow_velocity(navigation_.estimate())) {

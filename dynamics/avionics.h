@@ -85,6 +85,8 @@ class Avionics {
   /// IMU reading on the tick of the last sense(); nullopt if none was due.
   const std::optional<sensors::ImuReading>& imu() const { return imu_reading_; }
   sensors::ImuReading imu_bias() const { return imu_.bias(); }
+  /// GPS fix that arrived on the tick of the last sense(); nullopt if none did.
+  const std::optional<sensors::GpsFix>& gps() const { return gps_fix_; }
   const control::Autopilot& autopilot() const { return autopilot_; }
   /// Returns the actuator commands until the next call. @param dt_s  time until then, > 0, constant during a flight.
   Controls control(const control::Setpoint& setpoint, double dt_s) {
@@ -108,6 +110,7 @@ class Avionics {
   sensors::Imu imu_;
   std::optional<sensors::ImuReading> imu_reading_;
   sensors::Gps gps_;
+  std::optional<sensors::GpsFix> gps_fix_;
   sensors::Ranger height_sensor_;
   sensors::Magnetometer magnetometer_;
   std::optional<sensors::Barometer> barometer_;

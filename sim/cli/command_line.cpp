@@ -61,6 +61,14 @@ void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
   command->add_flag("--no-video", run.no_video, "do not write a video");
   command->add_flag("--no-report", run.no_report, "do not write report.html; `hedgehop report DIR` writes it later");
   command->add_flag("--view", run.view, "show the flight in a browser while it is flown; prints the address");
+  command
+      ->add_option(
+          "--pace", run.pace,
+          "seconds of flight per second of wall time, such as 1 for real time; default as fast as possible. The "
+          "results are equal")
+      ->transform(number())
+      ->check(positive())
+      ->type_name("SPEED");
   command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
   command->add_option("--keep-if-failed", run.keep_if_failed)->delimiter(',')->group("");  // hidden: for batch
   command->add_flag("--json", run.json, "print result.json instead of the verdict");
@@ -114,14 +122,16 @@ void declare_calibration(CLI::App& app, std::function<int()>& chosen, Calibratio
 
 void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& data) {
   CLI::App* const command =
-      app.add_subcommand("export", "re-simulate a run and write a data set: images, IMU, true motion, calibration");
-  command->add_option("RUN", data.folder, "output folder of `hedgehop run`")->required();
+      app.add_subcommand("export", "re-simulate a run and write a data set or a log for other programs");
+  command->add_option("RUN", data.source, "output folder of `hedgehop run`, or a scenario file (YAML), which is flown")
+      ->required();
   command
       ->add_option("--format", data.format,
-                   "euroc: mav0 with all cameras; tum: RGB-D of one pinhole camera with true depth; kitti: odometry "
-                   "with pinhole cameras of one rate")
+                   "data sets: euroc (mav0 with all cameras), tum (RGB-D of one pinhole camera with true depth), kitti "
+                   "(odometry with pinhole cameras of one rate); logs: mcap (Foxglove, PlotJuggler), rosbag2 (ROS 2), "
+                   "ulog (PX4's plots, without images)")
       ->required()
-      ->check(CLI::IsMember({"euroc", "tum", "kitti"}));
+      ->check(CLI::IsMember({"euroc", "tum", "kitti", "mcap", "rosbag2", "ulog"}));
   command
       ->add_option("--camera", data.cameras,
                    "role of a camera to export; may be repeated, the first is cam0; default all cameras with images")
@@ -131,7 +141,14 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
   command
       ->add_flag("--float-depth", data.float_depth, "ground-truth depth as TIFF of 32-bit floats, m, without a limit")
       ->needs(truth);
-  command->add_option("--out", data.out, "output folder, which must not exist or be empty; default RUN/<format>")
+  command->add_option("--compression", data.compression, "of mcap and rosbag2: zstd (the default), lz4 or none")
+      ->check(CLI::IsMember({"zstd", "lz4", "none"}));
+  command->add_flag("--compressed-images", data.compressed_images,
+                    "in rosbag2, images as PNG (CompressedImage) instead of Image");
+  command
+      ->add_option("--out", data.out,
+                   "output folder, which must not exist or be empty; default <format> in the folder of the run, or "
+                   "out/<name>-seed<seed>/<format>")
       ->type_name("DIR");
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 }

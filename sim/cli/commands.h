@@ -35,6 +35,7 @@ struct RunOptions {
   bool json = false;
   bool no_report = false;
   bool view = false;                        ///< show the flight in a browser while it is flown
+  std::optional<double> pace;               ///< seconds of flight per second of wall time; none: as fast as possible
   std::vector<std::string> keep_if_failed;  ///< of a worker: "report", "film", "replay"; written if the flight fails
   int64_t worker_of = 0;  ///< parent process, whose end ends this run; no progress is shown; 0 for a run by a user
 };
@@ -195,14 +196,16 @@ int bless(const BlessOptions& options);
 std::filesystem::path own_program();
 
 struct ExportOptions {
-  std::filesystem::path folder;      ///< of a run
-  std::string format;                ///< "euroc", "tum" or "kitti"
-  std::filesystem::path out;         ///< empty: <folder>/<format>
+  std::filesystem::path source;      ///< folder of a run, or a scenario
+  std::string format;                ///< a name of kDataFormats
+  std::filesystem::path out;         ///< empty: <format> in the folder of the run, or out/<name>-seed<seed>/<format>
   std::vector<std::string> cameras;  ///< roles; empty: all that take images
   bool truth = false;                ///< also the ground truth of each pixel
   bool float_depth = false;          ///< ground-truth depth as floats
+  std::string compression = "zstd";  ///< of a log: "zstd", "lz4" or "none"
+  bool compressed_images = false;    ///< of a bag: PNG instead of raw images
 };
-/// Re-simulates a run and writes its sensor readings for other programs.
+/// Re-simulates a run, or flies a scenario, and writes its sensor readings for other programs.
 int export_run(const ExportOptions& options);
 
 struct DatasetOptions {

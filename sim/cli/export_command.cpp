@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/commands.h"
@@ -12,9 +13,21 @@
 namespace hedgehop::sim::cli {
 namespace {
 
+struct NamedFormat {
+  const char* name;
+  DataFormat format;
+};
+constexpr NamedFormat kDataFormats[] = {{"euroc", DataFormat::euroc},     {"tum", DataFormat::tum},
+                                        {"kitti", DataFormat::kitti},     {"mcap", DataFormat::mcap},
+                                        {"rosbag2", DataFormat::rosbag2}, {"ulog", DataFormat::ulog}};
+
 DataFormat format_of(const std::string& name) {
-  if (name == "tum") return DataFormat::tum;
-  return name == "kitti" ? DataFormat::kitti : DataFormat::euroc;
+  return std::ranges::find_if(kDataFormats, [&](const NamedFormat& f) { return name == f.name; })->format;
+}
+
+ChunkCompression compression_of(const std::string& name) {
+  if (name == "none") return ChunkCompression::none;
+  return name == "lz4" ? ChunkCompression::lz4 : ChunkCompression::zstd;
 }
 
 /// Of the trajectory that the run left.
@@ -34,17 +47,24 @@ std::string hash_of_run(const std::filesystem::path& folder) {
 }  // namespace
 
 int export_run(const ExportOptions& options) {
-  const std::string hash = hash_of_run(options.folder);
-  const Scenario scenario = load_scenario(options.folder / "scenario.yaml");
-  const ExportRequest request{format_of(options.format), options.cameras, options.truth,
+  const bool is_run = !std::filesystem::is_regular_file(options.source);
+  const std::string hash = is_run ? hash_of_run(options.source) : "";
+  const Scenario scenario = load_scenario(is_run ? options.source / "scenario.yaml" : options.source);
+  const std::filesystem::path folder =
+      is_run ? options.source : std::filesystem::path("out") / fmt::format("{}-seed{}", scenario.name, scenario.seed);
+  const ExportRequest request{format_of(options.format),
+                              options.cameras,
+                              options.truth,
                               options.float_depth ? DepthFormat::float_m : DepthFormat::png_mm,
-                              options.out.empty() ? options.folder / options.format : options.out};
+                              compression_of(options.compression),
+                              options.compressed_images,
+                              options.out.empty() ? folder / options.format : options.out};
   FlightProgress progress(scenario.name);
   const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {
     progress.show(t_s, duration_s, goal_distance_m);
   });
   progress.close();
-  if (flight.result.trajectory_hash != hash) {
+  if (is_run && flight.result.trajectory_hash != hash) {
     notice(
         fmt::format("warning: the re-simulated trajectory differs from the run's ({} instead of {}): another build or "
                     "another kind of processor; the data agree with each other\n",

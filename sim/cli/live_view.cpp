@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
-#include <thread>
 
 #include "sim/cli/exit_status.h"
 #include "sim/flight/json_reader.h"
@@ -49,12 +48,11 @@ std::string jpeg_base64(const cv::Mat& rgb) { return rgb.empty() ? "" : base64(j
 
 }  // namespace
 
-LiveView::LiveView(const Simulation& simulation)
-    : server_(live_page(simulation.scenario(), simulation.scene())), sent_(), pace_(Clock::now()) {
+LiveView::LiveView(const Simulation& simulation) : server_(live_page(simulation.scenario(), simulation.scene())) {
   notice(fmt::format("view: {}   (the flight begins when a browser opens it, after {:.0f} s at the latest)\n",
                      server_.url(), kViewerWaitS));
   if (!server_.wait_for_viewer(kViewerWaitS)) notice("view: no browser; the flight begins\n");
-  pace_ = Clock::now();
+  pace_.begin(simulation.t_s());
 }
 
 void LiveView::show(Simulation& simulation, const std::string& status, const cv::Mat& module_image) {
@@ -79,13 +77,10 @@ void LiveView::show(Simulation& simulation, const std::string& status, const cv:
 }
 
 void LiveView::keep_pace(double t_s) {
-  const auto due = pace_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(t_s - pace_s_));
-  const auto now = Clock::now();
-  if (server_.has_viewer() && due > now) {
-    std::this_thread::sleep_until(due);
-  } else {  // behind, after a pause, or without a viewer: the pace begins here
-    pace_ = now;
-    pace_s_ = t_s;
+  if (server_.has_viewer() && !server_.is_paused()) {
+    pace_.keep(t_s);
+  } else {
+    pace_.begin(t_s);
   }
 }
 

@@ -4,8 +4,10 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "sim/cli/flight_pace.h"
 #include "sim/cli/view_server.h"
 #include "sim/flight/flight.h"
+#include "sim/flight/result_io.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim::cli {
@@ -29,8 +31,8 @@ class LiveView {
 
   ViewServer server_;
   std::string states_;  ///< not sent yet
-  Clock::time_point sent_, pace_;
-  double pace_s_ = 0.0;  ///< flight time at `pace_`
+  Clock::time_point sent_;
+  FlightPace pace_;
 };
 
 }  // namespace hedgehop::sim::cli

@@ -45,6 +45,8 @@ constexpr Example kExamples[] = {
     {"reproduce", "hedgehop reproduce zingg2010 --quick", ""},
     {"bless", "hedgehop bless out/quickstart --reason \"inspected in report.html\"", ""},
     {"export", "hedgehop export out/quickstart --format euroc --truth", ""},
+    {"export", "hedgehop export out/quickstart --format mcap", "for Foxglove and PlotJuggler"},
+    {"export", "hedgehop export out/quickstart --format rosbag2", "for `ros2 bag play`"},
     {"dataset", "hedgehop dataset configs/worlds/park.yaml --seeds 1:3 --images 6 --renderer tiles --out out/images",
      "random poses"},
     {"report", "hedgehop report out/quickstart --replay", "report.html, and replay.html in 3-D"},

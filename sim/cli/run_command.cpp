@@ -14,6 +14,7 @@
 #include "sim/batch/record.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/flight_pace.h"
 #include "sim/cli/live_view.h"
 #include "sim/cli/progress.h"
 #include "sim/config/folder_lock.h"
@@ -81,13 +82,18 @@ void die_with(pid_t campaign) {
   if (::getppid() != campaign) throw std::runtime_error("the campaign that started this worker is gone");
 }
 
-/// Flies to the end. The view observes every decision and cannot change the flight.
-Flight fly(Simulation& simulation, const RunWatcher& watcher, LiveView* view) {
-  if (view == nullptr) return simulation.run();
-  do {
-    view->show(simulation, watcher.status(), watcher.module_image());
-  } while (simulation.step());
-  view->show(simulation, watcher.status(), watcher.module_image());
+/// Flies to the end. The view observes every decision, and the pace waits on every tick; neither can change the flight.
+Flight fly(Simulation& simulation, const RunWatcher& watcher, LiveView* view, FlightPace* pace) {
+  if (view == nullptr && pace == nullptr) return simulation.run();
+  const auto show = [&] {
+    if (view != nullptr) view->show(simulation, watcher.status(), watcher.module_image());
+  };
+  show();
+  for (bool flies = true; flies;) {
+    if (pace != nullptr) pace->keep(simulation.t_s());
+    flies = simulation.tick();
+    if (simulation.decides() || !flies) show();
+  }
   return simulation.result();
 }
 
@@ -157,7 +163,9 @@ int run(const RunOptions& options) {
   Simulation simulation(std::move(loaded), &watcher);
   std::optional<LiveView> view;
   if (options.view) view.emplace(simulation);
-  const Flight flight = fly(simulation, watcher, view ? &*view : nullptr);
+  std::optional<FlightPace> pace;
+  if (options.pace) pace.emplace(*options.pace);
+  const Flight flight = fly(simulation, watcher, view ? &*view : nullptr, pace ? &*pace : nullptr);
   watcher.close();
   const bool failed = !holds(verdict_of(flight.result));
   std::error_code ignored;

@@ -1,6 +1,7 @@
 #include "sim/config/whole_file.h"
 
 #include "sim/config/input_error.h"
+#include "sim/config/streamed_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,62 +18,26 @@
 namespace hedgehop::sim {
 namespace {
 
-[[noreturn]] void fail(std::string_view action, const std::filesystem::path& file, int error) {
-  throw std::runtime_error(fmt::format("cannot {} {}: {}", action, file.string(), std::strerror(error)));
+[[noreturn]] void fail_reading(const std::filesystem::path& file, int error) {
+  throw std::runtime_error(fmt::format("cannot read {}: {}", file.string(), std::strerror(error)));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view why) {
   throw InputError(fmt::format("cannot read {}: {}", file.string(), why));
 }
 
-/// Returns the result of a call, which is repeated if a signal interrupts it.
-template <class Call>
-auto uninterrupted(Call call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-/// Writes all of `text`; returns 0 or errno.
-int write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = uninterrupted([&] { return ::write(descriptor, text.data(), text.size()); });
-    if (written < 0) return errno;
-    text.remove_prefix(static_cast<size_t>(written));
-  }
-  return 0;
-}
-
-/// Returns whether the file exists and is neither regular nor a folder, such as a pipe or /dev/stdout.
-bool is_special(const std::filesystem::path& file) {
-  struct stat info = {};
-  return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
-}
-
-/// Returns 0 or errno. On Linux, an interrupted close(2) has closed the file and must not be repeated.
-int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
-
 }  // namespace
 
 void write_file_whole(const std::filesystem::path& file, std::string_view text) {
-  const bool special = is_special(file);
-  const std::filesystem::path part = special ? file : std::filesystem::path(file.string() + ".part");
-  const int descriptor =
-      uninterrupted([&] { return ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
-  if (descriptor < 0) fail("write", file, errno);
-  int error = write_all(descriptor, text);
-  if (const int closing = close_file(descriptor); error == 0) error = closing;
-  if (error == 0 && !special && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
-  if (error != 0) {
-    if (!special) ::unlink(part.c_str());
-    fail("write", file, error);
-  }
+  StreamedFile out(file);
+  out.write(text);
+  out.close();
 }
 
 std::string read_file_whole(const std::filesystem::path& file) {
   const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
   if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) refuse(file, std::strerror(errno));
-  if (descriptor < 0) fail("read", file, errno);
+  if (descriptor < 0) fail_reading(file, errno);
   struct stat info = {};
   std::string text;
   int error = ::fstat(descriptor, &info) == 0 ? 0 : errno;
@@ -89,7 +54,7 @@ std::string read_file_whole(const std::filesystem::path& file) {
     if (got < 0) error = errno;
   }
   ::close(descriptor);
-  if (error != 0) fail("read", file, error);
+  if (error != 0) fail_reading(file, error);
   return text;
 }
 

@@ -10,6 +10,7 @@
 
 #include "sim/config/whole_file.h"
 #include "sim/export/formats.h"
+#include "sim/export/log_export.h"
 #include "sim/export/sensor_record.h"
 #include "sim/export/true_images.h"
 #include "sim/flight/build.h"
@@ -72,11 +73,7 @@ void check(const ExportRequest& request, SensorRecord record) {
     }
   }
   texts(request.format, record);
-  std::error_code error;
-  if (std::filesystem::exists(request.out, error) && !std::filesystem::is_empty(request.out, error)) {
-    throw InputError(fmt::format("{}: is not an empty folder; select another with --out", request.out.string()));
-  }
-  require_writable(request.out);
+  require_empty(request.out);
 }
 
 /// Returns a 16-bit depth image, see kTumDepthPerMeter.
@@ -192,8 +189,20 @@ const RecordedState& state_at(const SensorRecord& record, int64_t t_ns) {
   return *at;
 }
 
-Flight export_flight(const Scenario& scenario, const ExportRequest& request,
-                     const std::function<void(double, double, double)>& progress) {
+namespace {
+
+void write_origin(const Scenario& scenario, const ExportRequest& request, const Flight& flight) {
+  nlohmann::ordered_json origin{{"scenario", scenario.name},
+                                {"seed", scenario.seed},
+                                {"version", std::string(version())},
+                                {"build", std::string(build_identity())},
+                                {"start_time_ns", start_time_ns(request.format)},
+                                {"truth_used", flight.result.truth_used},
+                                {"trajectory_hash", flight.result.trajectory_hash}};
+  write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");
+}
+
+Flight export_data_set(const Scenario& scenario, const ExportRequest& request, const Recorder::Progress& progress) {
   SensorRecord record;
   record.cameras = select_cameras(scenario, request.cameras);
   record.imu_config = scenario.avionics.imu;
@@ -206,14 +215,16 @@ Flight export_flight(const Scenario& scenario, const ExportRequest& request,
     write_file_whole(request.out / file.name, file.text);
   }
   if (request.truth) write_file_whole(request.out / "truth/labels.json", labels_json(*flight.scene));
-  const nlohmann::ordered_json origin{{"scenario", scenario.name},
-                                      {"seed", scenario.seed},
-                                      {"version", std::string(version())},
-                                      {"build", std::string(build_identity())},
-                                      {"start_time_ns", kStartTimeNs},
-                                      {"truth_used", flight.result.truth_used},
-                                      {"trajectory_hash", flight.result.trajectory_hash}};
-  write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");
+  return flight;
+}
+
+}  // namespace
+
+Flight export_flight(const Scenario& scenario, const ExportRequest& request,
+                     const std::function<void(double, double, double)>& progress) {
+  Flight flight =
+      is_log(request.format) ? export_log(scenario, request, progress) : export_data_set(scenario, request, progress);
+  write_origin(scenario, request, flight);
   return flight;
 }
 

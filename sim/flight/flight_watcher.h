@@ -9,8 +9,11 @@
 #include <string_view>
 
 #include "avoidance/module.h"
+#include "dynamics/control/navigation.h"
 #include "dynamics/rigid_body.h"
+#include "dynamics/sensors/gps.h"
 #include "dynamics/sensors/imu.h"
+#include "sim/flight/flight.h"
 
 namespace hedgehop::sim {
 
@@ -20,6 +23,8 @@ struct SensorTick {
   dynamics::RigidBodyState body_true;
   std::optional<dynamics::sensors::ImuReading> imu;  ///< nullopt on a tick without a reading
   dynamics::sensors::ImuReading imu_bias;            ///< bias of the reading, without noise and misalignment
+  std::optional<dynamics::sensors::GpsFix> gps;      ///< nullopt on a tick on which no fix arrives
+  dynamics::control::NavigationEstimate navigation;  ///< of the onboard filter
   /// Frames of all cameras that expose on this tick, except lost images; valid until the next tick.
   std::span<const avoidance::CameraFrame> frames;
   /// Returns the view of a camera on this tick as ImageChannel::depth, without imperfections.
@@ -29,6 +34,13 @@ struct SensorTick {
   /// Returns ImageChannel::flow from the camera's last image that was not lost to this tick. Throws std::logic_error
   /// for the first image.
   std::function<cv::Mat(std::string_view role)> flow_to_here;
+};
+
+/// The properties of a flight that are fixed at its start.
+struct FlightStart {
+  std::span<const NamedUnit> signals;          ///< of DecisionRow::signals
+  std::span<const std::string> control_names;  ///< of TrajectoryRow::controls, with units
+  const scenes::Scene& scene;
 };
 
 /// A flight at one instant, for display.
@@ -50,10 +62,16 @@ class FlightWatcher {
   virtual void on_images(const ShownInstant& /*shown*/) {}
   /// Returns whether on_sensors() is required. If so, every camera of the rig exposes at its own rate.
   virtual bool wants_sensors() const { return false; }
-  /// Called on every tick with a reading of the IMU or a camera.
+  /// Called on every tick with a reading of the IMU, the GPS or a camera.
   virtual void on_sensors(const SensorTick& /*tick*/) {}
   /// Returns the working folder of a foreign module's process, with its log; empty: a temporary one.
   virtual std::filesystem::path module_folder() const { return {}; }
+  /// Called before every other call of a flight.
+  virtual void on_start(const FlightStart& /*start*/) {}
+  /// Called on every control tick, after on_sensors().
+  virtual void on_row(const TrajectoryRow& /*row*/) {}
+  /// Called after every decision. @param annotate  returns the module's image; empty if it draws none.
+  virtual void on_decision(const DecisionRow& /*row*/, const std::function<cv::Mat()>& /*annotate*/) {}
   /// Called after every second of flight. @param goal_distance_m  horizontal; NaN without a goal.
   virtual void on_progress(double /*t_s*/, double /*duration_s*/, double /*goal_distance_m*/) {}
 };

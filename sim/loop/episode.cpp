@@ -35,6 +35,7 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
   }
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;
+  watcher_dispatch_.send_start(log_.tables(), *environment_.scene);
   begin_tick();
 }
 
@@ -68,17 +69,9 @@ void Episode::complete_tick(const avoidance::Command* command) {
     decide();
   }
   if (tick_ % control_period_ == 0) run_autopilot();
-  const auto annotate = [this]() -> cv::Mat {
-    try {
-      cv::Mat image = pilot_.module().annotate();
-      const bool is_film_image = image.dims == 2 && image.type() == CV_8UC3 && std::max(image.rows, image.cols) <= 8192;
-      return is_film_image ? image : cv::Mat();
-    } catch (const std::exception&) {  // a video cannot change the flight
-      return {};
-    }
-  };
-  watcher_dispatch_.send_images(tick_, annotate, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
-                                goal_distance_m());
+  watcher_dispatch_.send_images(
+      tick_, [this] { return annotate(); }, log_.status(), proximity_.obstacle_clearance_m, scenario_.duration_s,
+      goal_distance_m());
 }
 
 Flight Episode::flight() const {
@@ -152,7 +145,23 @@ void Episode::decide() {
     const StageTimer::Lap lap = decision_.lap();
     log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, *observation_));
   });
-  if (!over()) observe_map();
+  if (!over()) {
+    watcher_dispatch_.send_decision(log_.tables(), [this] { return annotate(); });
+    observe_map();
+  }
+}
+
+/// Returns the module's image for videos and logs; empty if it has none or fails, because watchers cannot change a
+/// flight.
+cv::Mat Episode::annotate() const {
+  constexpr int kMaxSidePx = 8192;
+  try {
+    cv::Mat image = pilot_.module().annotate();
+    const bool is_image = image.dims == 2 && image.type() == CV_8UC3 && std::max(image.rows, image.cols) <= kMaxSidePx;
+    return is_image ? image : cv::Mat();
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 void Episode::call_module(const std::function<void()>& call) {
@@ -166,6 +175,7 @@ void Episode::call_module(const std::function<void()>& call) {
 void Episode::override_decision(const avoidance::Command& command) {
   const std::vector<double> no_signals(pilot_.module().signals().size(), std::nan(""));
   log_.add(ticks_.t_s(tick_), {pilot_.override_decision(tick_, command), "commanded", no_signals});
+  watcher_dispatch_.send_decision(log_.tables(), [this] { return annotate(); });
 }
 
 /// Records the module's map and passes it with the ground truth to the map observer.
@@ -185,6 +195,7 @@ void Episode::run_autopilot() {
   const dynamics::control::Setpoint& setpoint = pilot_.setpoint(tick_);
   aircraft_.run_autopilot(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
   log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
+  watcher_dispatch_.send_row(log_.tables());
 }
 
 /// Returns the end of the flight on this tick, if any.

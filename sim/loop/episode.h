@@ -72,6 +72,8 @@ class Episode {
   void decide();
   /// Calls the module; an exception ends the flight as a fault.
   void call_module(const std::function<void()>& call);
+  /// Returns the module's image; empty if it draws none.
+  cv::Mat annotate() const;
   void override_decision(const avoidance::Command& command);
   void observe_map();
   void run_autopilot();

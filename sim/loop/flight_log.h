@@ -44,6 +44,8 @@ class FlightLog {
   /// Call on every decision.
   void add(double t_s, const avoidance::Decision& decision);
 
+  /// Returns the tables so far, without the figures.
+  const Flight& tables() const { return flight_; }
   /// Returns the status of the last decision; empty before the first.
   std::string_view status() const {
     return flight_.decisions.empty() ? std::string_view() : std::string_view(flight_.decisions.back().status);

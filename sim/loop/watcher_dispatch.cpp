@@ -12,6 +12,18 @@ WatcherDispatch::WatcherDispatch(FlightWatcher* watcher, const Ticks& ticks, Cam
   if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
+void WatcherDispatch::send_start(const Flight& tables, const scenes::Scene& scene) {
+  if (watcher_) watcher_->on_start({tables.signals, tables.control_names, scene});
+}
+
+void WatcherDispatch::send_row(const Flight& tables) {
+  if (watcher_) watcher_->on_row(tables.trajectory.back());
+}
+
+void WatcherDispatch::send_decision(const Flight& tables, const std::function<cv::Mat()>& annotate) {
+  if (watcher_) watcher_->on_decision(tables.decisions.back(), annotate);
+}
+
 void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
   if (!watcher_ || !watcher_->wants_sensors()) return;
   const Cameras::Instant now{ticks_.t_ns(tick), body};
@@ -25,7 +37,7 @@ void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
     }
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
-  if (frames.empty() && !avionics.imu()) return;
+  if (frames.empty() && !avionics.imu() && !avionics.gps()) return;
   const auto image_of = [&](ImageChannel channel) {
     return [&, channel](std::string_view role) { return cameras_.image(cameras_.index(role), channel, now, now); };
   };
@@ -35,9 +47,9 @@ void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
     if (!exposed_[camera]) throw std::logic_error("the first image has no optic flow");
     return cameras_.image(camera, ImageChannel::flow, *exposed_[camera], now);
   };
-  watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), frames,
-                        image_of(ImageChannel::depth), image_of(ImageChannel::labels), image_of(ImageChannel::semantic),
-                        moving, flow_to_here});
+  watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), avionics.gps(),
+                        avionics.navigation(), frames, image_of(ImageChannel::depth), image_of(ImageChannel::labels),
+                        image_of(ImageChannel::semantic), moving, flow_to_here});
   for (const size_t camera : exposing) exposed_[camera] = now;
 }
 

@@ -20,6 +20,12 @@ class WatcherDispatch {
   /// @param watcher  may be null; then the calls have no effect.
   WatcherDispatch(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft);
 
+  /// Passes the fixed properties of the flight. @param tables  of the flight.
+  void send_start(const Flight& tables, const scenes::Scene& scene);
+  /// Passes the last row of the trajectory.
+  void send_row(const Flight& tables);
+  /// Passes the last decision. @param annotate  makes the module's own image; called only if it is used.
+  void send_decision(const Flight& tables, const std::function<cv::Mat()>& annotate);
   /// Passes the readings of all sensors if the watcher requests them. @param body  the aircraft's motion on this tick.
   void send_sensors(int64_t tick, const BodyMotion& body);
   /// Passes images and progress if they are due.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/mesh_detail.h"
 #include "sim/flight/json_reader.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/image_file.h"
@@ -30,26 +31,13 @@ std::string packed(const std::vector<Value>& values) {
 
 Json rgb_list(const Eigen::Vector3f& v) { return {brief(v.x()), brief(v.y()), brief(v.z())}; }
 
-/// Returns the indices of all chunks; with `far`, of the far detail of the chunks that have one.
-std::vector<uint32_t> chosen_indices(const scenes::Mesh& mesh, bool far) {
-  if (!far) return mesh.indices;
-  std::vector<uint32_t> indices;
-  for (const scenes::Chunk& chunk : mesh.chunks) {
-    const bool has_far = chunk.far.index_count > 0;
-    const auto& from = has_far ? mesh.far_indices : mesh.indices;
-    const auto first = from.begin() + (has_far ? chunk.far.first_index : chunk.first_index);
-    indices.insert(indices.end(), first, first + (has_far ? chunk.far.index_count : chunk.index_count));
-  }
-  return indices;
-}
-
 /// The triangles of one mesh or several meshes.
 class Surfaces {
  public:
   void add(const scenes::Mesh& mesh, bool far) {
     constexpr uint32_t kUnused = UINT32_MAX;
     std::vector<uint32_t> renamed(mesh.vertices.size(), kUnused);
-    for (const uint32_t index : chosen_indices(mesh, far)) {
+    for (const uint32_t index : scenes::triangle_indices(mesh, far)) {
       if (renamed[index] == kUnused) {
         renamed[index] = static_cast<uint32_t>(vertices_.size());
         vertices_.push_back(mesh.vertices[index]);

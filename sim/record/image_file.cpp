@@ -33,23 +33,6 @@ struct PngWriter {
   png_infop info = nullptr;
 };
 
-std::string png_of(const cv::Mat& image) {
-  std::string bytes;
-  const PngWriter writer;
-  png_structp png = writer.png;
-  png_set_write_fn(png, &bytes, append, nullptr);
-  png_set_IHDR(png, writer.info, static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
-               image.depth() == CV_16U ? 16 : 8, image.channels() == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(png, 1);  // exports write thousands of images; level 6 takes four times as long
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_write_info(png, writer.info);
-  if (image.depth() == CV_16U) png_set_swap(png);  // a PNG is big endian
-  for (int row = 0; row < image.rows; ++row) png_write_row(png, image.ptr(row));
-  png_write_end(png, nullptr);
-  return bytes;
-}
-
 /// Returns a TIFF with one directory of fields and all rows in one strip.
 std::string tiff_of(const cv::Mat& image) {
   static_assert(std::endian::native == std::endian::little);
@@ -110,11 +93,32 @@ cv::Mat labels_16bit(const cv::Mat& labels) {
   return small;
 }
 
-void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+std::string png_of(const cv::Mat& image) {
   if (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC3) {
-    throw std::invalid_argument(file.string() + ": a PNG must be grey or RGB with 8 or 16 bit");
+    throw std::invalid_argument("a PNG must be grey or RGB with 8 or 16 bit");
   }
-  write_file_whole(file, png_of(image));
+  std::string bytes;
+  const PngWriter writer;
+  png_structp png = writer.png;
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, writer.info, static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
+               image.depth() == CV_16U ? 16 : 8, image.channels() == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(png, 1);  // exports write thousands of images; level 6 takes four times as long
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_write_info(png, writer.info);
+  if (image.depth() == CV_16U) png_set_swap(png);  // a PNG is big endian
+  for (int row = 0; row < image.rows; ++row) png_write_row(png, image.ptr(row));
+  png_write_end(png, nullptr);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+  try {
+    write_file_whole(file, png_of(image));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
 }
 
 cv::Mat depth_mm(const cv::Mat& depth_m) {

@@ -10,6 +10,9 @@ namespace hedgehop::sim {
 /// with the file and the cause. The file is complete or absent.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 
+/// Returns the bytes of the PNG that write_png() writes. Throws std::invalid_argument for another type of image.
+std::string png_of(const cv::Mat& image);
+
 /// Writes an uncompressed TIFF of 32-bit floats. @param image  CV_32FC1. Throws as write_png().
 void write_tiff(const std::filesystem::path& file, const cv::Mat& image);
 
