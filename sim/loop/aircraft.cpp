@@ -36,7 +36,8 @@ void Aircraft::move(int64_t tick) {
   }
   wind_W_ = wind_.sample(-body().p_WB.z(), body().q_WB * body().v_WB_B, ticks_.dt_s());
   if (on_stand_) {
-    on_stand_ = !vehicle_.step_on_stand(actuators_, wind_W_, ticks_.dt_s());
+    const bool lifts = vehicle_.step_on_stand(actuators_, wind_W_, ticks_.dt_s());
+    on_stand_ = !(lifts && engine_on_);
   } else {
     vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
   }

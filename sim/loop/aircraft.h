@@ -35,7 +35,8 @@ class Aircraft {
   /// Replaces the actuator commands of the autopilot.
   void command_actuators(const OutsideCommand& command) {
     actuators_ = command.actuators;
-    vehicle_.set_engine(command.engine_on);
+    engine_on_ = command.engine_on;
+    vehicle_.set_engine(engine_on_);
   }
   /// Advances by one tick. @param tick  before the step.
   void move(int64_t tick);
@@ -71,7 +72,7 @@ class Aircraft {
   } surroundings_;
   std::vector<dynamics::ActuatorFault> faults_;  ///< of this tick
   dynamics::ActuatorCommand actuators_ = dynamics::Controls(dynamics::Controls::Zero());
-  bool on_stand_ = false;
+  bool on_stand_ = false, engine_on_ = true;
 };
 
 }  // namespace hedgehop::sim

@@ -45,6 +45,7 @@ bool Episode::at_start() const {
 OutsideInput Episode::outside_input() {
   OutsideInput input{.step = outside_step_,
                      .t_ns = std::nullopt,
+                     .on_stand = aircraft_.on_stand(),
                      .body = aircraft_.body(),
                      .specific_force_B = aircraft_.specific_force_B(),
                      .wind_W = aircraft_.wind_W(),

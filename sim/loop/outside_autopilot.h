@@ -19,6 +19,7 @@ namespace hedgehop::sim {
 struct OutsideInput {
   int64_t step = 0;             ///< physics steps since the autopilot's first packet
   std::optional<int64_t> t_ns;  ///< of the flight; nullopt before its start
+  bool on_stand = false;        ///< whether the stand holds the vehicle
   dynamics::RigidBodyState body;
   Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();  ///< ideal accelerometers at the mass center, m/s^2
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();            ///< velocity of the air, m/s

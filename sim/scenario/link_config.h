@@ -122,6 +122,7 @@ void describe(Visitor& v, fields::ConfigOf<MulticopterLinkConfig> auto& c) {
 struct ArduPilotLinkConfig {
   static constexpr std::string_view kName = "ardupilot_json";
   static constexpr std::string_view kMeaning = "ArduPilot with --model JSON: Hedgehop is its physics, over UDP";
+  std::string host = "127.0.0.1";
   int64_t port = 9002, serial_port = 5760, instance = 0;
   std::vector<std::string> command;
   int64_t loop_rate_hz = 400;
@@ -144,6 +145,7 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
     {.at_least = 0,
      .at_most = 64000,
      .meaning = "TCP port of the autopilot's first serial line; instance N uses serial_port + 10 N; 0: none"});
+  v("host", c.host, {.meaning = "numeric address of the autopilot's serial line"});
   v("instance", c.instance,
     {.at_least = 0, .at_most = 99, .meaning = "number of the autopilot; parallel flights add their worker's number"});
   v("command", c.command,
