@@ -40,9 +40,10 @@ int export_run(const ExportOptions& options) {
                               options.float_depth ? DepthFormat::float_m : DepthFormat::png_mm,
                               options.out.empty() ? options.folder / options.format : options.out};
   FlightProgress progress(scenario.name);
-  const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {
-    progress.show(t_s, duration_s, goal_distance_m);
-  });
+  const Flight flight = export_flight(
+      scenario, request,
+      [&](double t_s, double duration_s, double goal_distance_m) { progress.show(t_s, duration_s, goal_distance_m); },
+      options.folder);
   progress.close();
   if (flight.result.trajectory_hash != hash) {
     notice(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@
 #include "sim/export/sensor_record.h"
 #include "sim/export/true_images.h"
 #include "sim/flight/build.h"
+#include "sim/link/open_link.h"
 #include "sim/record/image_file.h"
 #include "sim/record/labels_file.h"
 #include "sim/scenario/rig.h"
@@ -193,13 +195,15 @@ const RecordedState& state_at(const SensorRecord& record, int64_t t_ns) {
 }
 
 Flight export_flight(const Scenario& scenario, const ExportRequest& request,
-                     const std::function<void(double, double, double)>& progress) {
+                     const std::function<void(double, double, double)>& progress,
+                     const std::filesystem::path& run_folder) {
   SensorRecord record;
   record.cameras = select_cameras(scenario, request.cameras);
   record.imu_config = scenario.avionics.imu;
   check(request, record);
   Recorder recorder(request, record, progress);
-  Flight flight = Simulation(scenario, {}, &recorder).run();
+  const std::unique_ptr<OutsideAutopilot> autopilot = link::recorded_link(scenario, run_folder);
+  Flight flight = Simulation(scenario, {}, &recorder, autopilot.get()).run();
   recorder.close();
   for (const DataFile& file : texts(request.format, record)) {
     std::filesystem::create_directories((request.out / file.name).parent_path());

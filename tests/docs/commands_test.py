@@ -118,7 +118,12 @@ class Commands(unittest.TestCase):
         (folder / "build").mkdir()
         (folder / "build" / "release").symlink_to(BUILD)
         (folder / "out").mkdir()
-        cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}"}
+        # A scripted peer flies instead of ArduPilot.
+        (folder / "bin").mkdir()
+        autopilot = folder / "bin" / "arducopter"
+        autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/scripted_peer.py" "$@"\n')
+        autopilot.chmod(0o755)
+        cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{folder}/bin:{os.environ['PATH']}"}
 
     @classmethod
     def tearDownClass(cls):

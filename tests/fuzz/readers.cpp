@@ -6,9 +6,11 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <typeinfo>
+#include <variant>
 #include <vector>
 
 #include "avoidance/flow_balance/flow_balance.h"
@@ -22,6 +24,7 @@
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/fields/invalid_field.h"
+#include "sim/link/ardupilot_link.h"
 #include "sim/mavlink/frame.h"
 #include "sim/record/run_record.h"
 #include "sim/record/table.h"
@@ -100,6 +103,17 @@ void read_mavlink(const std::filesystem::path& file) {
   if (ids.empty()) throw std::invalid_argument("no frame");
 }
 
+/// The packets of an autopilot as they arrive in flight, from the format of a recording.
+void read_packets(const std::filesystem::path& file) {
+  sim::Scenario scenario;
+  scenario.vehicle = dynamics::multicopter::MulticopterConfig{};
+  scenario.physics_rate_hz = 1000;
+  scenario.link = sim::ArduPilotLinkConfig{.multicopter = {.frame_class = 1, .frame_type = 0}};
+  sim::link::ArduPilotLink link(scenario, std::make_unique<sim::link::ReplaySource>(file));
+  sim::OutsideInput input;
+  while (std::holds_alternative<sim::OutsideCommand>(link.exchange(input))) ++input.step;
+}
+
 constexpr std::array kReaders = {
     Reader{"scenario", "yaml", read_scenario},
     Reader{"sweep", "yaml", [](const std::filesystem::path& file) { sim::read_sweep(file); }},
@@ -122,6 +136,7 @@ constexpr std::array kReaders = {
     Reader{"calibration", "txt", read_calibration},
     Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
     Reader{"columns", "csv", [](const std::filesystem::path& file) { sim::read_columns(file); }},
+    Reader{"packets", "bin", read_packets},
     Reader{"reference", "csv", [](const std::filesystem::path& file) { sim::read_reference_path(file); }},
 };
 
