@@ -19,10 +19,9 @@ std::variant<ArduPilotStart, Px4Start> start_of(const CompanionSetup& setup) {
 
 }  // namespace
 
-Companion::Companion(const CompanionConfig& config, CompanionSetup setup, Transport transport)
+Companion::Companion(const CompanionConfig& config, CompanionSetup setup)
     : config_(config),
       setup_(std::move(setup)),
-      transport_(transport),
       writer_(kIdentity),
       autopilot_(setup_.make),
       perception_(config.perception, setup_.needs, setup_.module, setup_.p_origin_W),
@@ -31,9 +30,7 @@ Companion::Companion(const CompanionConfig& config, CompanionSetup setup, Transp
 }
 
 void Companion::receive(std::span<const uint8_t> bytes) {
-  const std::vector<Frame> frames =
-      transport_ == Transport::stream ? decoder_.decode(bytes) : decoder_.decode_datagram(bytes);
-  for (const Frame& frame : frames) autopilot_.take(frame);
+  for (const Frame& frame : decoder_.decode(bytes)) autopilot_.take(frame);
 }
 
 void Companion::observe(int64_t t_ns, const avoidance::Observation& observation) {

@@ -9,27 +9,14 @@
 #include <vector>
 
 #include "avoidance/module.h"
-#include "sim/fields/field.h"
 #include "sim/mavlink/autopilot_state.h"
+#include "sim/mavlink/companion_config.h"
 #include "sim/mavlink/frame.h"
 #include "sim/mavlink/perception.h"
 #include "sim/mavlink/start_sequence.h"
 #include "sim/mavlink/steering.h"
 
 namespace hedgehop::sim::mavlink {
-
-/// Messages to an autopilot.
-struct CompanionConfig {
-  bool steer = true;
-  PerceptionConfig perception;
-};
-template <class Visitor>
-void describe(Visitor& v, fields::ConfigOf<CompanionConfig> auto& c) {
-  v("steer", c.steer,
-    {.meaning = "whether the module steers the autopilot: mode GUIDED or OFFBOARD, arming, take-off and setpoints; if "
-                "false, a ground station or the autopilot's own mission does"});
-  v("perception", c.perception, {.meaning = "messages from the module's images and the navigation estimate"});
-}
 
 /// The module and its aircraft, as a companion computer needs them.
 struct CompanionSetup {
@@ -46,14 +33,11 @@ struct CompanionSetup {
 /// its inputs and times.
 class Companion {
  public:
-  /// A datagram is a whole message or several; a stream may be cut anywhere.
-  enum class Transport { stream, datagrams };
-
   /// Throws std::invalid_argument "perception.max: ..." on a bad config, and if the module declares commands that
   /// cannot be sent.
-  Companion(const CompanionConfig& config, CompanionSetup setup, Transport transport);
+  Companion(const CompanionConfig& config, CompanionSetup setup);
 
-  /// Reads bytes of the autopilot; for datagrams, those of one. Malformed bytes are counted.
+  /// Reads bytes of the autopilot, cut anywhere. Malformed bytes are counted.
   void receive(std::span<const uint8_t> bytes);
   /// Measures with the images of an observation of the module.
   void observe(int64_t t_ns, const avoidance::Observation& observation);
@@ -73,7 +57,6 @@ class Companion {
  private:
   CompanionConfig config_;
   CompanionSetup setup_;
-  Transport transport_;
   FrameDecoder decoder_;
   FrameWriter writer_;
   AutopilotState autopilot_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "sim/mavlink/command_messages.h"
 #include "sim/mavlink/hil_messages.h"
@@ -68,17 +67,6 @@ std::vector<Frame> FrameDecoder::decode(std::span<const uint8_t> bytes) {
   return frames;
 }
 
-std::vector<Frame> FrameDecoder::decode_datagram(std::span<const uint8_t> bytes) {
-  std::vector<Frame> frames = decode(bytes);
-  while (!pending_.empty()) {
-    pending_.erase(pending_.begin());
-    refuse_byte();
-    std::ranges::move(decode({}), std::back_inserter(frames));
-  }
-  in_step_ = true;
-  return frames;
-}
-
 size_t FrameDecoder::take(std::span<const uint8_t> rest, std::vector<Frame>& frames) {
   if (rest[0] == kMagic1 && in_step_) return take_version_1(rest);
   if (rest[0] != kMagic) return refuse_byte();
@@ -119,6 +107,7 @@ size_t FrameDecoder::skip(size_t size, size_t available, int64_t& count) {
 
 size_t FrameDecoder::refuse_byte() {
   ++counts_.bad_bytes;
+  if (in_step_) ++counts_.malformed;
   in_step_ = false;
   return 1;
 }

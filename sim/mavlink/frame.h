@@ -60,7 +60,8 @@ struct DecoderCounts {
   int64_t unknown = 0;        ///< frames with an unknown id, skipped
   int64_t version_1 = 0;      ///< frames of MAVLink 1, skipped
   int64_t signed_frames = 0;  ///< refused: this decoder has no key
-  int64_t bad_bytes = 0;      ///< not part of a frame, or of one with a wrong checksum
+  int64_t malformed = 0;      ///< places at which bytes were refused: no frame, or one with a wrong checksum
+  int64_t bad_bytes = 0;      ///< refused bytes
 
   bool operator==(const DecoderCounts&) const = default;
 };
@@ -73,8 +74,6 @@ class FrameDecoder {
 
   /// Returns the frames that these bytes complete.
   std::vector<Frame> decode(std::span<const uint8_t> bytes);
-  /// As decode(), for bytes that contain whole frames only: an incomplete frame at their end is not one.
-  std::vector<Frame> decode_datagram(std::span<const uint8_t> bytes);
   const DecoderCounts& counts() const { return counts_; }
 
  private:

@@ -36,7 +36,7 @@ struct Pair {
   std::map<uint32_t, std::vector<Frame>> sent;  ///< by the companion, by id
 
   Pair(const CompanionConfig& config, const CompanionSetup& setup)
-      : companion(config, setup, Companion::Transport::stream), autopilot(static_cast<uint8_t>(setup.make)) {}
+      : companion(config, setup), autopilot(static_cast<uint8_t>(setup.make)) {}
 
   void step(const avoidance::NavigationState* navigation = nullptr, const avoidance::Command* command = nullptr) {
     std::vector<uint8_t> bytes;
@@ -144,8 +144,8 @@ TEST(Companion, RefusesAttitudesBeforeTheFlightIfTheyAreDeclaredElseAtTheFirst) 
   std::vector<uint8_t> bytes;
   EXPECT_THROW(pair.companion.send(pair.t_ns, &navigation, &command, bytes), std::invalid_argument);
   setup.needs.commands = {CommandType::attitude};
-  EXPECT_THROW(Companion({}, setup, Companion::Transport::stream), std::invalid_argument);
-  EXPECT_NO_THROW(Companion({.steer = false}, setup, Companion::Transport::stream));
+  EXPECT_THROW(Companion({}, setup), std::invalid_argument);
+  EXPECT_NO_THROW(Companion({.steer = false}, setup));
 }
 
 TEST(Companion, ReportsAnotherProtocolVersion) {
@@ -155,14 +155,14 @@ TEST(Companion, ReportsAnotherProtocolVersion) {
   EXPECT_EQ(pair.companion.fault(), "protocol version 4 in HEARTBEAT; valid: 3");
   EXPECT_FALSE(pair.companion.autopilot().sender());
 
-  Companion companion({}, on_stand(AutopilotMake::ardupilot), Companion::Transport::stream);
+  Companion companion({}, on_stand(AutopilotMake::ardupilot));
   EXPECT_EQ(companion.fault(), "");
   companion.receive(std::vector<uint8_t>{0xFE, 9, 0, 1, 1, 0, 0, 0, 0, 0, 2, 3, 0, 4, 3, 0x11, 0x22});
   EXPECT_EQ(companion.fault(), "MAVLink 1; valid: MAVLink 2");
 }
 
 TEST(Companion, FollowsTheFirstAutopilotOfItsMakeOnly) {
-  Companion companion({}, on_stand(AutopilotMake::ardupilot), Companion::Transport::datagrams);
+  Companion companion({}, on_stand(AutopilotMake::ardupilot));
   const auto hear = [&](Sender sender, uint8_t make, uint32_t mode) {
     std::vector<uint8_t> bytes;
     FrameWriter(sender).append(Heartbeat{.custom_mode = mode, .autopilot = make}, bytes);
@@ -227,7 +227,7 @@ TEST(Companion, SendsUnknownSectorsBeforeTheFlightAndTheWallInIt) {
 TEST(Companion, RefusesAMaximumRangeBelowTheMinimum) {
   CompanionConfig config;
   config.perception.min_m = config.perception.max_m = 5.0;
-  EXPECT_THROW(Companion(config, with_depth_camera(), Companion::Transport::stream), std::invalid_argument);
+  EXPECT_THROW(Companion(config, with_depth_camera()), std::invalid_argument);
 }
 
 }  // namespace
