@@ -40,6 +40,10 @@ ArduPilotLink::ArduPilotLink(const Scenario& scenario, std::unique_ptr<PacketSou
   figures_.kind = ArduPilotLinkConfig::kName;
 }
 
+void ArduPilotLink::prepare(const avoidance::Needs& needs, const avoidance::Setup& setup) {
+  if (channel_) channel_->prepare(needs, setup);
+}
+
 std::variant<OutsideCommand, LinkEnd> ArduPilotLink::exchange(const OutsideInput& input) {
   if (std::optional<LinkEnd> end = take_arrived(input.step)) return *std::move(end);
   if (std::optional<LinkEnd> end = exchange_messages(input)) return *std::move(end);
@@ -54,6 +58,7 @@ LinkFigures ArduPilotLink::figures() const {
   figures.peer = source_->peer();
   figures.strangers = source_->strangers();
   figures.waited_s = source_->waited_s();
+  if (channel_) figures.malformed += channel_->malformed();
   return figures;
 }
 

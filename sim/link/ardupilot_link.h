@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,6 +29,11 @@ class ArduPilotLink : public OutsideAutopilot {
   ArduPilotLink(const Scenario& scenario, std::unique_ptr<PacketSource> source, MessageChannel* channel = nullptr,
                 std::filesystem::path recording = {});
 
+  /// Keeps the channel of the constructor.
+  void own(std::unique_ptr<MessageChannel> channel) { owned_channel_ = std::move(channel); }
+
+  void prepare(const avoidance::Needs& needs, const avoidance::Setup& setup) override;
+  std::string awaited() const override { return channel_ ? channel_->awaited() : ""; }
   /// Throws InputError if the first packet does not come or is of another format.
   std::variant<OutsideCommand, LinkEnd> exchange(const OutsideInput& input) override;
   void on_start(int64_t step) override { figures_.start_tick = step; }
@@ -51,6 +57,7 @@ class ArduPilotLink : public OutsideAutopilot {
   const bool keeps_rotor_speed_;  ///< whether the rotor speed of a helicopter is constant
   std::unique_ptr<PacketSource> source_;
   MessageChannel* const channel_;
+  std::unique_ptr<MessageChannel> owned_channel_;
   std::filesystem::path recording_file_;
   std::optional<RecordingWriter> recording_;
   ActuatorMixing mixing_;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 
-#include "sim/loop/message_channel.h"
 #include "sim/loop/outside_autopilot.h"
 #include "sim/scenario/scenario.h"
 
@@ -23,10 +22,9 @@ struct LinkOptions {
 };
 
 /// Returns the autopilot of a scenario's link: opens the port and starts its program, if the link names one, or opens
-/// the recording. @param channel  messages over its serial line, or null; it outlives the autopilot. Throws InputError
-/// with one line for a port in use, a program that cannot be started and a recording that cannot be read.
-std::unique_ptr<OutsideAutopilot> open_link(const Scenario& scenario, const LinkOptions& options,
-                                            MessageChannel* channel = nullptr);
+/// the recording. The module of the scenario exchanges messages with it. Throws InputError with one line for a port in
+/// use, a program that cannot be started and a recording that cannot be read.
+std::unique_ptr<OutsideAutopilot> open_link(const Scenario& scenario, const LinkOptions& options);
 
 /// Returns the autopilot of a run's recording; null for a scenario without a link. @param run_folder  of the run.
 std::unique_ptr<OutsideAutopilot> recorded_link(const Scenario& scenario, const std::filesystem::path& run_folder);

@@ -11,6 +11,7 @@ namespace hedgehop::sim {
 /// Lets the autopilot fly from the stand to the start. Collisions count from the stand on.
 void Episode::take_off() {
   const double start_within_s = std::visit([](const auto& link) { return link.start_within_s; }, *scenario_.link);
+  outside_->prepare(pilot_.module().needs(), module_setup(scenario_, environment_.hull));
   aircraft_.reset_on_stand(environment_.collision);
   p_WB_wanted_ = aircraft_.body().p_WB;
   p_WB_wanted_.z() = -scenario_.start.altitude_m;
@@ -20,7 +21,9 @@ void Episode::take_off() {
   }
   while (!over() && !at_start()) {
     if (outside_step_ > ticks_.ticks(start_within_s)) {
-      end({Outcome::link_lost, fmt::format("link: the vehicle did not reach the start within {:g} s", start_within_s)});
+      const std::string awaited = outside_->awaited();
+      end({Outcome::link_lost, fmt::format("link: the vehicle did not reach the start within {:g} s{}", start_within_s,
+                                           awaited.empty() ? "" : "; awaited: " + awaited)});
       break;
     }
     move_outside();

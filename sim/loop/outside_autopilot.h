@@ -52,11 +52,17 @@ class OutsideAutopilot {
  public:
   virtual ~OutsideAutopilot() = default;
 
+  /// Takes the module's cameras and commands before the first exchange. Throws InputError if the link cannot serve
+  /// them.
+  virtual void prepare(const avoidance::Needs& /*needs*/, const avoidance::Setup& /*setup*/) {}
+
   /// Passes the state after the last step and returns the commands for the next one. On the first call, the state is
   /// that of the stand, and the autopilot does not receive it.
   virtual std::variant<OutsideCommand, LinkEnd> exchange(const OutsideInput& input) = 0;
   /// Marks the start of the flight's clock. @param step  as OutsideInput::step.
   virtual void on_start(int64_t step) = 0;
+  /// Returns the condition for the start of the flight that is not yet met, for a message; may be empty.
+  virtual std::string awaited() const { return ""; }
   /// Returns the counts so far.
   virtual LinkFigures figures() const = 0;
 };

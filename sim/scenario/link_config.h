@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "sim/fields/field.h"
+#include "sim/mavlink/companion_config.h"
+#include "sim/scenario/px4_link_config.h"
 
 /// The link to an autopilot outside this process, which flies the vehicle instead of Hedgehop's own autopilot.
 namespace hedgehop::sim {
@@ -129,6 +131,7 @@ struct ArduPilotLinkConfig {
   MulticopterLinkConfig multicopter;
   std::optional<HelicopterLinkConfig> helicopter;
   std::vector<LinkRangeFinderConfig> range_finders;
+  mavlink::CompanionConfig companion;
   std::optional<double> stand_altitude_m;  ///< above W's origin, positive up; default: the start's altitude
   double start_radius_m = 1.0, start_speed_mps = 1.0;
   double start_within_s = 300.0;
@@ -155,6 +158,7 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
     {.unit = "Hz", .at_least = 50, .at_most = 2000, .meaning = "SCHED_LOOP_RATE: minimum physics rate"});
   v("multicopter", c.multicopter, {.meaning = "motors of a multicopter"});
   v("helicopter", c.helicopter, {.meaning = "servos of a helicopter; required for helicopters"});
+  v("companion", c.companion, {.meaning = "messages to the autopilot over its serial line"});
   v("range_finders", c.range_finders, {.meaning = "up to 6 range finders (RNGFNDi_TYPE 100): true distances"});
   v("stand_altitude", c.stand_altitude_m,
     {.unit = "m",
@@ -178,6 +182,6 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
 }
 
 /// Any link. The YAML key `type` selects one.
-using LinkConfig = std::variant<ArduPilotLinkConfig>;
+using LinkConfig = std::variant<ArduPilotLinkConfig, Px4LinkConfig>;
 
 }  // namespace hedgehop::sim

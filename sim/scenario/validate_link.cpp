@@ -75,11 +75,27 @@ class LinkValidator {
   std::vector<FieldError> errors_;
 };
 
+std::vector<FieldError> errors_of(const Scenario& scenario, const ArduPilotLinkConfig& link) {
+  return LinkValidator(scenario, link).errors();
+}
+
+std::vector<FieldError> errors_of(const Scenario& scenario, const Px4LinkConfig& link) {
+  const auto* const vehicle = std::get_if<dynamics::multicopter::MulticopterConfig>(&scenario.vehicle);
+  if (!vehicle) return {{"link.type", "px4 flies multicopters; the vehicle is a helicopter"}};
+  std::vector<FieldError> errors = match_motors(*vehicle, link.frame_class, link.frame_type).errors;
+  constexpr int64_t kImuRateHz = 250;  // of PX4's lockstep
+  if (scenario.physics_rate_hz && *scenario.physics_rate_hz % kImuRateHz != 0) {
+    errors.push_back(
+        {"physics_rate", fmt::format("{} is no multiple of PX4's IMU rate {}", *scenario.physics_rate_hz, kImuRateHz)});
+  }
+  return errors;
+}
+
 }  // namespace
 
 std::vector<FieldError> link_errors(const Scenario& scenario) {
   if (!scenario.link) return {};
-  return std::visit([&](const auto& link) { return LinkValidator(scenario, link).errors(); }, *scenario.link);
+  return std::visit([&](const auto& link) { return errors_of(scenario, link); }, *scenario.link);
 }
 
 }  // namespace hedgehop::sim

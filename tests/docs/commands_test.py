@@ -118,11 +118,12 @@ class Commands(unittest.TestCase):
         (folder / "build").mkdir()
         (folder / "build" / "release").symlink_to(BUILD)
         (folder / "out").mkdir()
-        # A scripted peer flies instead of ArduPilot.
+        # Scripted peers fly instead of ArduPilot and PX4.
         (folder / "bin").mkdir()
-        autopilot = folder / "bin" / "arducopter"
-        autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/scripted_peer.py" "$@"\n')
-        autopilot.chmod(0o755)
+        for name, peer in (("arducopter", "scripted_peer.py"), ("px4", "px4_peer.py")):
+            autopilot = folder / "bin" / name
+            autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/{peer}" "$@"\n')
+            autopilot.chmod(0o755)
         cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{folder}/bin:{os.environ['PATH']}"}
 
     @classmethod
