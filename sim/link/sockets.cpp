@@ -29,6 +29,11 @@ sockaddr_in to_sockaddr(const Address& address) {
 
 const sockaddr* general(const sockaddr_in& name) { return reinterpret_cast<const sockaddr*>(&name); }
 
+bool is_writable(int descriptor) {
+  pollfd watched{.fd = descriptor, .events = POLLOUT, .revents = 0};
+  return ::poll(&watched, 1, 0) == 1 && watched.revents == POLLOUT;
+}
+
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 }  // namespace
@@ -91,7 +96,8 @@ bool StreamClient::connect() {
     ::setsockopt(socket_.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   }
   const sockaddr_in name = to_sockaddr(server_);
-  if (::connect(socket_.number(), general(name), sizeof name) == 0 || errno == EISCONN) {
+  const int status = ::connect(socket_.number(), general(name), sizeof name);
+  if (status == 0 || errno == EISCONN || (errno == EINPROGRESS && is_writable(socket_.number()))) {
     connected_ = true;
   } else if (errno != EINPROGRESS && errno != EALREADY) {
     socket_ = Descriptor();

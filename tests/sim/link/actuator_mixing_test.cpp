@@ -1,5 +1,6 @@
 #include "sim/link/actuator_mixing.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,26 +43,30 @@ std::vector<double> shares(const MulticopterConfig& vehicle, const MulticopterLi
   return all;
 }
 
+testing::Matcher<std::vector<double>> shares_of(std::vector<double> wanted) {
+  return testing::Pointwise(testing::DoubleNear(1e-12), std::move(wanted));
+}
+
 TEST(ActuatorMixing, PulsesOfAQuadXReachTheArmsByAzimuth) {
   MulticopterConfig vehicle;
   // Front right, rear right, rear left, front left: the motors 1, 4, 2, 3 of ArduPilot's quad X.
   vehicle.arms = {arm(45, false), arm(135, true), arm(-135, false), arm(-45, true)};
   const std::vector<double> speeds =
       shares(vehicle, {.frame_class = 1, .frame_type = 1}, packet_of({1100, 1200, 1300, 1400}));
-  EXPECT_EQ(speeds, (std::vector<double>{0.1, 0.4, 0.2, 0.3}));
+  EXPECT_THAT(speeds, shares_of({0.1, 0.4, 0.2, 0.3}));
 }
 
 TEST(ActuatorMixing, HummingbirdIsAQuadPlus) {
   const std::vector<double> speeds =
       shares(MulticopterConfig{}, {.frame_class = 1, .frame_type = 0}, packet_of({1100, 1200, 1300, 1400}));
-  EXPECT_EQ(speeds, (std::vector<double>{0.3, 0.1, 0.4, 0.2}));  // forward, right, back, left
+  EXPECT_THAT(speeds, shares_of({0.3, 0.1, 0.4, 0.2}));  // forward, right, back, left
 }
 
 TEST(ActuatorMixing, PulsesBeyondTheRangeAreLimitedAndNoPulseStopsAMotor) {
   const std::vector<double> speeds =
       shares(MulticopterConfig{}, {.frame_class = 1, .frame_type = 0, .pwm_min_us = 1100.0, .pwm_max_us = 1900.0},
              packet_of({900, 2100, 0, 1500}));
-  EXPECT_EQ(speeds, (std::vector<double>{0.0, 0.0, 0.5, 1.0}));
+  EXPECT_THAT(speeds, shares_of({0.0, 0.0, 0.5, 1.0}));
 }
 
 TEST(MotorFrames, EveryFrameMatchesAVehicleBuiltFromItsTable) {
