@@ -43,13 +43,14 @@ void Companion::send(int64_t t_ns, const avoidance::NavigationState* navigation,
     heartbeat_ns_ = t_ns;
     writer_.append(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive}, bytes);
   }
+  if (config_.steer && command) require_steerable(*command);
+  if (!autopilot_.sender()) return;
   perception_.send(t_ns, navigation, writer_, bytes);
   if (!config_.steer) return;
   if (!command || !navigation) {
     std::visit([&](auto& start) { start.send(t_ns, autopilot_, writer_, bytes); }, start_);
     return;
   }
-  if (!autopilot_.sender()) return;
   if (!steering_) steering_.emplace(*autopilot_.sender(), setup_.p_origin_W);
   steering_->send(t_ns, *command, *navigation, writer_, bytes);
 }

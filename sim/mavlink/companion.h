@@ -41,7 +41,7 @@ class Companion {
   void receive(std::span<const uint8_t> bytes);
   /// Measures with the images of an observation of the module.
   void observe(int64_t t_ns, const avoidance::Observation& observation);
-  /// Appends the messages that are due.
+  /// Appends the messages that are due; before the autopilot's first heartbeat only heartbeats.
   /// @param t_ns  time of the autopilot, rising. @param navigation  null before the flight. @param command  the
   /// module's, null before its first. Throws std::invalid_argument for a command that cannot be sent.
   void send(int64_t t_ns, const avoidance::NavigationState* navigation, const avoidance::Command* command,

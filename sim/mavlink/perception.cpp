@@ -5,22 +5,19 @@
 #include <string>
 #include <utility>
 
-#include "avoidance/stereo/disparity_source.h"
 #include "sim/mavlink/obstacle_sectors.h"
 #include "sim/mavlink/perceived_messages.h"
+#include "sim/mavlink/sector_source.h"
 #include "vision/flow/ground_velocity.h"
-#include "vision/stereo/disparity.h"
 
 namespace hedgehop::sim::mavlink {
 namespace {
 
 using avoidance::CameraNeed;
-using avoidance::stereo::DisparitySource;
 
 // ArduPilot takes a proximity sensor for broken after 0.5 s without a message; range finders and poses have rates of
 // usual sensors.
-constexpr int64_t kSectorsEveryNs = 100'000'000, kHeightEveryNs = 50'000'000, kPoseEveryNs = 40'000'000;
-constexpr int64_t kSectorsLastNs = 500'000'000;  // older images do not count
+constexpr int64_t kSectorsEveryNs = SectorSource::kPeriodNs, kHeightEveryNs = 50'000'000, kPoseEveryNs = 40'000'000;
 
 /// Whether a message with this period is due; then the next one is due a period later, without drift.
 class Period {
@@ -36,12 +33,6 @@ class Period {
   int64_t period_ns_, next_ns_ = 0;
 };
 
-const avoidance::MountedCamera& mounted(const avoidance::Setup& setup, const std::string& role) {
-  const auto camera = std::ranges::find(setup.cameras, role, &avoidance::MountedCamera::role);
-  if (camera == setup.cameras.end()) throw std::invalid_argument("a camera '" + role + "' is needed");
-  return *camera;
-}
-
 /// Returns the height band around Bo that contains the hull.
 SectorLimits limits_of(const PerceptionConfig& config, const avoidance::VehicleLimits& vehicle) {
   SectorLimits limits{config.band_m, config.band_m, config.min_m, config.max_m};
@@ -50,79 +41,6 @@ SectorLimits limits_of(const PerceptionConfig& config, const avoidance::VehicleL
     limits.below_m = std::max(limits.below_m, config.band_m + part.max().z());
   }
   return limits;
-}
-
-/// Sectors from one depth camera or one stereo pair.
-class SectorSource {
- public:
-  SectorSource(const CameraNeed& depth, const avoidance::Setup& setup, const SectorLimits& limits)
-      : role_(depth.role), to_sectors_(mounted(setup, depth.role).model, mounted(setup, depth.role).X_BC, limits) {}
-  SectorSource(const std::string& pair, const std::string& left, const avoidance::Setup& setup,
-               const PerceptionConfig& config, const SectorLimits& limits)
-      : to_sectors_(mounted(setup, left).model, mounted(setup, left).X_BC, limits) {
-    stereo_.emplace(DisparitySource::From::stereo, DisparitySource::Grey::unused, config.stereo, setup, pair);
-  }
-
-  /// Uses only the images that the next message needs.
-  void update(int64_t t_ns, const avoidance::Observation& observation) {
-    if (seen_ns_ && t_ns - *seen_ns_ < kSectorsEveryNs - kJitterNs) return;
-    if (stereo_) {
-      if (!stereo_->update(observation.frames)) return;
-      vision::stereo::remove_specks(stereo_->disparity16(), kSpeckDifference16, kSpeckPixels);
-      cv::Mat depth_m;
-      vision::stereo::to_depth(stereo_->disparity16(), stereo_->geometry(), depth_m);
-      set(t_ns, depth_m, observation);
-      return;
-    }
-    const auto frame = std::ranges::find(observation.frames, role_, &avoidance::CameraFrame::role);
-    if (frame != observation.frames.end()) set(t_ns, frame->image, observation);
-  }
-  /// Returns the sectors of the last image; null if there is none or it is old.
-  const ObstacleSectors* sectors(int64_t t_ns) const {
-    return seen_ns_ && t_ns - *seen_ns_ <= kSectorsLastNs ? &sectors_ : nullptr;
-  }
-
- private:
-  // As in avoidance/local_map: segments of fewer pixels are mismatches.
-  static constexpr int kSpeckDifference16 = 32, kSpeckPixels = 100;
-  static constexpr int64_t kJitterNs = 1'000'000;
-
-  void set(int64_t t_ns, const cv::Mat& depth_m, const avoidance::Observation& observation) {
-    sectors_ = to_sectors_.sectors(depth_m, observation.navigation.q_WB_est);
-    seen_ns_ = t_ns;
-  }
-
-  std::string role_;
-  std::optional<DisparitySource> stereo_;
-  DepthToSectors to_sectors_;
-  ObstacleSectors sectors_;
-  std::optional<int64_t> seen_ns_;
-};
-
-/// Returns the sources that the module's cameras permit: each depth camera, and each pair "left" and "right", with or
-/// without a common prefix.
-std::vector<SectorSource> sector_sources(const PerceptionConfig& config, const avoidance::Needs& needs,
-                                         const avoidance::Setup& setup, const SectorLimits& limits) {
-  std::vector<SectorSource> sources;
-  const auto has_grey = [&](const std::string& role) {
-    return std::ranges::any_of(needs.cameras, [&](const CameraNeed& need) {
-      return need.role == role && need.channel == CameraNeed::Channel::grey;
-    });
-  };
-  const std::string left_end = DisparitySource::kLeft, right_end = DisparitySource::kRight;
-  for (const CameraNeed& need : needs.cameras) {
-    if (need.channel == CameraNeed::Channel::depth) sources.emplace_back(need, setup, limits);
-    if (need.channel != CameraNeed::Channel::grey || !need.role.ends_with(left_end)) continue;
-    const std::string prefix = need.role.substr(0, need.role.size() - left_end.size());
-    if (!prefix.empty() && !prefix.ends_with("_")) continue;
-    const avoidance::MountedCamera& left = mounted(setup, need.role);
-    if (!has_grey(prefix + right_end) || !left.model.is_undistorted_pinhole()) continue;
-    const Eigen::Isometry3d X_CCr = left.X_BC.inverse() * mounted(setup, prefix + right_end).X_BC;
-    constexpr double kParallelRad = 1e-6;  // side cameras are called left and right, too
-    if (Eigen::AngleAxisd(X_CCr.linear()).angle() > kParallelRad) continue;
-    sources.emplace_back(prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1), need.role, setup, config, limits);
-  }
-  return sources;
 }
 
 /// Optical flow from the first camera of the module that looks down.
@@ -137,7 +55,7 @@ class FlowSource {
     constexpr double kDown = 0.94;  // within 20 deg of the body's down axis
     for (const CameraNeed& need : needs.cameras) {
       if (need.channel != CameraNeed::Channel::grey) continue;
-      const avoidance::MountedCamera& camera = mounted(setup, need.role);
+      const avoidance::MountedCamera& camera = mounted_camera(setup, need.role);
       const bool looks_down = (camera.X_BC.linear() * Eigen::Vector3d::UnitZ()).z() > kDown;
       if (looks_down && camera.model.is_undistorted_pinhole()) return FlowSource(camera);
     }

@@ -12,7 +12,6 @@ constexpr uint16_t kIgnorePosition = 1 | 2 | 4, kIgnoreVelocity = 8 | 16 | 32, k
                    kIgnoreYaw = 1024, kIgnoreYawRate = 2048;
 constexpr uint8_t kLocalNed = 1;  // MAV_FRAME
 constexpr double kAltitudeTimeS = 1.0, kMaxClimbMps = 2.0;
-constexpr const char* kNoAttitude = "link: AttitudeCommand cannot be sent to this autopilot";
 
 struct SetpointOf {
   const avoidance::NavigationState& navigation;
@@ -43,9 +42,7 @@ struct SetpointOf {
             .type_mask = kIgnorePosition | kIgnoreAcceleration | kIgnoreYaw,
             .coordinate_frame = kLocalNed};
   }
-  SetPositionTargetLocalNed operator()(const avoidance::AttitudeCommand&) const {
-    throw std::invalid_argument(kNoAttitude);
-  }
+  SetPositionTargetLocalNed operator()(const avoidance::AttitudeCommand&) const { return {}; }  // refused before
 };
 
 struct SameCommand {
@@ -74,8 +71,14 @@ void require_steerable(const avoidance::Needs& needs) {
   }
 }
 
+void require_steerable(const avoidance::Command& command) {
+  if (!std::holds_alternative<avoidance::AttitudeCommand>(command)) return;
+  throw std::invalid_argument("link: AttitudeCommand cannot be sent to this autopilot");
+}
+
 SetPositionTargetLocalNed to_setpoint(const avoidance::Command& command, const avoidance::NavigationState& navigation,
                                       const Eigen::Vector3d& p_origin_W) {
+  require_steerable(command);
   return std::visit(SetpointOf{navigation, p_origin_W}, command);
 }
 

@@ -13,11 +13,13 @@ namespace hedgehop::sim::mavlink {
 
 /// Throws std::invalid_argument if the module declares attitude commands, which no link can send.
 void require_steerable(const avoidance::Needs& needs);
+/// Throws std::invalid_argument for an AttitudeCommand: autopilots accept no attitude together with an altitude.
+void require_steerable(const avoidance::Command& command);
 
 /// Returns a module's command as a setpoint, without time and receiver. An altitude becomes a vertical speed: the error
 /// of the altitude per second, at most 2 m/s, so that a stale setpoint does not hold the vehicle at a wrong altitude.
 /// @param navigation  the present estimate. @param p_origin_W  origin of the autopilot's local frame in W, m.
-/// Throws std::invalid_argument for an AttitudeCommand: autopilots accept no attitude together with an altitude.
+/// Throws as require_steerable().
 SetPositionTargetLocalNed to_setpoint(const avoidance::Command& command, const avoidance::NavigationState& navigation,
                                       const Eigen::Vector3d& p_origin_W);
 

@@ -138,7 +138,6 @@ TEST(Companion, LeavesTheAutopilotAloneIfItDoesNotSteer) {
 TEST(Companion, RefusesAttitudesBeforeTheFlightIfTheyAreDeclaredElseAtTheFirst) {
   CompanionSetup setup = on_stand(AutopilotMake::ardupilot);
   Pair pair({}, setup);
-  pair.run_for(30.0);
   avoidance::NavigationState navigation;
   const avoidance::Command command = avoidance::AttitudeCommand{};
   std::vector<uint8_t> bytes;
@@ -222,6 +221,17 @@ TEST(Companion, SendsUnknownSectorsBeforeTheFlightAndTheWallInIt) {
   EXPECT_EQ(pair.sent[VisionPositionEstimate::kId].back().as<VisionPositionEstimate>()->x, 1.0f) << "from the stand";
   EXPECT_EQ(pair.sent[Odometry::kId].size(), 25u);
   EXPECT_TRUE(pair.sent[OpticalFlow::kId].empty()) << "no camera looks down";
+}
+
+TEST(Companion, SendsOnlyHeartbeatsToALineWithoutAutopilot) {
+  Companion companion({}, with_depth_camera());
+  size_t sent = 0;
+  for (int64_t t_ns = 0; t_ns < 600 * kSecondNs; t_ns += 10 * kStepNs) {
+    std::vector<uint8_t> bytes;
+    companion.send(t_ns, nullptr, nullptr, bytes);
+    sent += bytes.size();
+  }
+  EXPECT_EQ(sent, 600u * 21u) << "a heartbeat has 21 bytes";
 }
 
 TEST(Companion, RefusesAMaximumRangeBelowTheMinimum) {

@@ -124,7 +124,7 @@ TEST(ObstacleSectors, AreTheNearestTracedPointsOfTheirBearings) {
   };
   const SectorLimits limits{1.0, 0.8, 0.5, 15.0};
   int obstacles = 0, free = 0, unseen = 0;
-  for (int scene = 0; scene < 10; ++scene) {
+  for (int scene = 0; scene < 6; ++scene) {
     TracedView view;
     view.X_BC = forward_camera(uniform(-180.0, 180.0) * kDeg);
     view.q_WB = attitude(uniform(-0.3, 0.3), uniform(-0.3, 0.3), uniform(-3.0, 3.0));
@@ -147,9 +147,9 @@ TEST(ObstacleSectors, AreTheNearestTracedPointsOfTheirBearings) {
     }
     EXPECT_LE(differences, 1) << "scene " << scene;
   }
-  EXPECT_GT(obstacles, 25);
-  EXPECT_GT(free, 25);
-  EXPECT_GT(unseen, 250);
+  EXPECT_GT(obstacles, 15);
+  EXPECT_GT(free, 15);
+  EXPECT_GT(unseen, 150);
 }
 
 TEST(ObstacleSectors, CountClockwiseFromTheNose) {
