@@ -12,8 +12,8 @@ namespace {
 
 using dynamics::multicopter::ArmConfig;
 
-constexpr double kMaxAzimuthDeg = 10.0;  // neighbors of an octocopter are 45 deg apart
-constexpr bool c = true, k = false;      // clockwise, counter-clockwise
+constexpr double kMaxAzimuthDeg = 10.0;   // neighbors of an octocopter are 45 deg apart
+constexpr bool kCw = true, kCcw = false;  // clockwise, counter-clockwise
 
 struct Frame {
   int64_t frame_class, frame_type;
@@ -22,16 +22,26 @@ struct Frame {
 };
 
 constexpr Frame kFrames[] = {
-    {1, 0, {{{90, k}, {-90, k}, {0, c}, {180, c}}}, 4},
-    {1, 1, {{{45, k}, {-135, k}, {-45, c}, {135, c}}}, 4},
-    {1, 12, {{{135, c}, {45, k}, {-135, k}, {-45, c}}}, 4},
-    {1, 13, {{{45, k}, {-45, c}, {-135, k}, {135, c}}}, 4},
-    {1, 14, {{{45, k}, {135, c}, {-135, k}, {-45, c}}}, 4},
-    {2, 0, {{{0, c}, {180, k}, {-120, c}, {60, k}, {-60, k}, {120, c}}}, 6},
-    {2, 1, {{{90, c}, {-90, k}, {-30, c}, {150, k}, {30, k}, {-150, c}}}, 6},
-    {3, 0, {{{0, c}, {180, c}, {45, k}, {135, k}, {-45, k}, {-135, k}, {-90, c}, {90, c}}}, 8},
-    {3, 1, {{{22.5, c}, {-157.5, c}, {67.5, k}, {157.5, k}, {-22.5, k}, {-112.5, k}, {-67.5, c}, {112.5, c}}}, 8},
-    {4, 1, {{{45, k}, {-45, c}, {-135, k}, {135, c}, {-45, k}, {45, c}, {135, k}, {-135, c}}}, 8},
+    {1, 0, {{{90, kCcw}, {-90, kCcw}, {0, kCw}, {180, kCw}}}, 4},
+    {1, 1, {{{45, kCcw}, {-135, kCcw}, {-45, kCw}, {135, kCw}}}, 4},
+    {1, 12, {{{135, kCw}, {45, kCcw}, {-135, kCcw}, {-45, kCw}}}, 4},
+    {1, 13, {{{45, kCcw}, {-45, kCw}, {-135, kCcw}, {135, kCw}}}, 4},
+    {1, 14, {{{45, kCcw}, {135, kCw}, {-135, kCcw}, {-45, kCw}}}, 4},
+    {2, 0, {{{0, kCw}, {180, kCcw}, {-120, kCw}, {60, kCcw}, {-60, kCcw}, {120, kCw}}}, 6},
+    {2, 1, {{{90, kCw}, {-90, kCcw}, {-30, kCw}, {150, kCcw}, {30, kCcw}, {-150, kCw}}}, 6},
+    {3, 0, {{{0, kCw}, {180, kCw}, {45, kCcw}, {135, kCcw}, {-45, kCcw}, {-135, kCcw}, {-90, kCw}, {90, kCw}}}, 8},
+    {3,
+     1,
+     {{{22.5, kCw},
+       {-157.5, kCw},
+       {67.5, kCcw},
+       {157.5, kCcw},
+       {-22.5, kCcw},
+       {-112.5, kCcw},
+       {-67.5, kCw},
+       {112.5, kCw}}},
+     8},
+    {4, 1, {{{45, kCcw}, {-45, kCw}, {-135, kCcw}, {135, kCw}, {-45, kCcw}, {45, kCw}, {135, kCcw}, {-135, kCw}}}, 8},
 };
 
 const Frame* find_frame(int64_t frame_class, int64_t frame_type) {

@@ -1,6 +1,7 @@
 #include "sim/link/px4_link.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <deque>
@@ -31,6 +32,8 @@ class ScriptedPx4 : public HilSource {
   std::vector<uint64_t> times_us;
   std::vector<double> sent_s;  ///< wall time of each state
   int64_t fixes = 0;
+  size_t piece = std::numeric_limits<size_t>::max();  ///< bytes per call of stream()
+  int64_t pieces = 0;
 
   bool connect(double deadline_s) override {
     if (!connects) now_s_ = deadline_s;
@@ -42,7 +45,10 @@ class ScriptedPx4 : public HilSource {
       now_s_ = std::max(now_s_, deadline_s);
       return std::nullopt;
     }
-    bytes_ = std::exchange(pending_, {});
+    const auto end = pending_.begin() + static_cast<ptrdiff_t>(std::min(piece, pending_.size()));
+    bytes_.assign(pending_.begin(), end);
+    pending_.erase(pending_.begin(), end);
+    ++pieces;
     if (bytes_ == kEnd) bytes_.clear();
     return Chunk{false, bytes_};
   }
@@ -258,6 +264,29 @@ TEST_F(Px4Lockstep, ARecordingFliesTheSameControlsAgain) {
   EXPECT_GT(figures.unanswered, 10);
   EXPECT_GT(figures.malformed, 10);
   std::filesystem::remove(file);
+}
+
+TEST_F(Px4Lockstep, AMillionMalformedFragmentsAreCountedInConstantMemory) {
+  constexpr int64_t kStates = 10'000;
+  constexpr size_t kFragment = 20, kFragments = 100, kMaxGrowthBytes = 1 << 20;
+  std::mt19937_64 random(1);
+  auto source = std::make_unique<ScriptedPx4>([&random](uint64_t time_us, int64_t) {
+    std::vector<uint8_t> bytes(kFragment * kFragments);
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random() % 4 == 0 ? 0xFD : random());
+    bytes.insert(bytes.end(), 300, 0);  // ends a frame that the noise begins
+    const std::vector<uint8_t> answer = controls(time_us, 0.5f);
+    bytes.insert(bytes.end(), answer.begin(), answer.end());
+    return bytes;
+  });
+  source->piece = kFragment;
+  source_ = source.get();
+  const size_t before = ::mallinfo2().uordblks;
+  EXPECT_FALSE(fly(std::move(source), kStates));
+  EXPECT_GE(source_->pieces, 1'000'000);
+  EXPECT_EQ(link_->figures().frames, kStates);
+  EXPECT_EQ(link_->figures().unanswered, 0);
+  EXPECT_GE(link_->figures().malformed, kStates);
+  EXPECT_LT(::mallinfo2().uordblks, before + kMaxGrowthBytes);
 }
 
 TEST_F(Px4Lockstep, AStateThatIsNotFiniteLosesTheLink) {
