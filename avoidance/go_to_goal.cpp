@@ -13,7 +13,7 @@ class GoToGoal final : public Module {
   explicit GoToGoal(const GoToGoalConfig& config) : config_(config) { fields::require_bounds(config); }
 
  private:
-  Needs do_needs() const override { return {}; }
+  Needs do_needs() const override { return {.cameras = {}, .commands = {CommandType::velocity}}; }
   std::vector<Signal> do_signals() const override { return {{"goal_distance_m", "m"}}; }
   void do_reset(const Setup&) override { least_distance_m_ = std::numeric_limits<double>::infinity(); }
 

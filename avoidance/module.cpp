@@ -1,5 +1,6 @@
 #include "avoidance/module.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -64,6 +65,11 @@ void check_frame(const CameraFrame& frame, int64_t now_ns, const Setup& setup, c
   }
 }
 
+/// Whether a module may give commands of a type. All may hover, and a module without a declaration may give any.
+bool declares(const Needs& needs, CommandType type) {
+  return needs.commands.empty() || type == CommandType::hover || std::ranges::count(needs.commands, type) > 0;
+}
+
 }  // namespace
 
 void confine(Command& command, double speed_limit_mps) {
@@ -108,6 +114,9 @@ Decision Module::update(const Observation& observation) {
   if (decision.signals.size() != signal_count_) {
     throw std::logic_error("a module gave " + std::to_string(decision.signals.size()) + " signals and announced " +
                            std::to_string(signal_count_));
+  }
+  if (!declares(needs_, type_of(decision.command))) {
+    throw std::logic_error("a module gave a command of a type that it does not declare");
   }
   try {
     confine(decision.command, setup_->limits.speed_mps);

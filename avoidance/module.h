@@ -74,6 +74,9 @@ struct HoverCommand {
   double yaw_rate_radps = 0.0;
 };
 using Command = std::variant<VelocityCommand, PositionCommand, AttitudeCommand, HoverCommand>;
+/// The types of Command, in its order.
+enum class CommandType { velocity, position, attitude, hover };
+inline CommandType type_of(const Command& command) { return static_cast<CommandType>(command.index()); }
 
 /// Scales a speed above the limit down to the limit. Throws std::invalid_argument if the command is not finite.
 /// @param speed_limit_mps  > 0.
@@ -88,6 +91,9 @@ struct CameraNeed {
 };
 struct Needs {
   std::vector<CameraNeed> cameras;
+  /// Types of the commands that the module gives; a hover needs no entry. Empty: not declared. A link to an autopilot
+  /// that does not accept a declared type refuses the module before the flight.
+  std::vector<CommandType> commands = {};
 };
 
 /// A mounted camera: model and pose in B.
@@ -167,7 +173,8 @@ class Module {
   /// - if navigation or goal are not finite;
   /// - if a frame is from the future, or does not have the size of its camera or the required channel (corners have no
   /// size);
-  /// - if do_update() returns a command that is not finite or the wrong number of signals.
+  /// - if do_update() returns a command that is not finite or of a type that the module does not declare, or the wrong
+  /// number of signals.
   Decision update(const Observation& observation);
 
   /// Metrics of the flight so far, for result.json.

@@ -104,7 +104,7 @@ void add_rows(PluginRows& rows) {
 /// The properties that must be equal in library and program: the version of this interface (increase it with every
 /// change of this file or of module.h), the C++ ABI, and the versions of the packages whose types cross the boundary.
 #define HEDGEHOP_PLUGIN_INTERFACE \
-  "modules 4, C++ ABI " HEDGEHOP_WORDS(__GXX_ABI_VERSION) ", Eigen " HEDGEHOP_WORDS(EIGEN_WORLD_VERSION) "."      \
+  "modules 5, C++ ABI " HEDGEHOP_WORDS(__GXX_ABI_VERSION) ", Eigen " HEDGEHOP_WORDS(EIGEN_WORLD_VERSION) "."      \
   HEDGEHOP_WORDS(EIGEN_MAJOR_VERSION) ", OpenCV " HEDGEHOP_WORDS(CV_VERSION_MAJOR) "." HEDGEHOP_WORDS(CV_VERSION_MINOR)
 
 /// Exports modules. @param ...  rows: hedgehop::avoidance::ModuleRow<Config, make>.

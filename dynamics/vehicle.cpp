@@ -1,5 +1,7 @@
 #include "dynamics/vehicle.h"
 
+#include <stdexcept>
+
 #include "dynamics/plausible_units.h"
 #include "sim/fields/bounds.h"
 
@@ -34,6 +36,44 @@ void Vehicle::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen
 
 void Vehicle::step(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
   std::visit([&](auto& flight) { flight.step_controls(command, wind_W, dt_s); }, flight_);
+}
+
+void Vehicle::step(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
+  if (const auto* const controls = std::get_if<Controls>(&command)) {
+    step(*controls, wind_W, dt_s);
+    return;
+  }
+  const auto& speeds_radps = std::get<multicopter::PerRotor>(command);
+  auto* const flight = std::get_if<multicopter::MulticopterFlight>(&flight_);
+  if (flight == nullptr || speeds_radps.size() != flight->state().speeds_radps.size()) {
+    throw std::invalid_argument("the vehicle has another number of rotors than commanded");
+  }
+  flight->step_rotors(speeds_radps, wind_W, dt_s);
+}
+
+void Vehicle::reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
+  std::visit([&](auto& flight) { flight.reset_on_stand(p_WB, heading_rad, wind_W); }, flight_);
+}
+
+bool Vehicle::step_on_stand(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
+  const RigidBodyState held = body();
+  step(command, wind_W, dt_s);
+  std::visit(
+      [&](auto& flight) {
+        auto state = flight.state();
+        if constexpr (requires { state.body; }) {
+          state.body = held;
+        } else {
+          state.airframe.body = held;
+        }
+        flight.set_state(state, wind_W);
+      },
+      flight_);
+  return (held.q_WB * specific_force_B()).z() < -kGravityMps2;
+}
+
+void Vehicle::set_engine(bool on) {
+  if (auto* const flight = std::get_if<helicopter::HelicopterFlight>(&flight_)) flight->set_engine(on);
 }
 
 void Vehicle::set_faults(std::span<const ActuatorFault> faults) {

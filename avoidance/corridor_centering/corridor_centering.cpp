@@ -44,7 +44,10 @@ class CorridorCentering final : public Module {
     return pursuit;
   }
 
-  Needs do_needs() const override { return {{{WallObserver::kRole, CameraNeed::Channel::grey}}}; }
+  Needs do_needs() const override {
+    return {{{WallObserver::kRole, CameraNeed::Channel::grey}},
+            {is_modified() ? CommandType::velocity : CommandType::attitude}};
+  }
 
   std::vector<Signal> do_signals() const override {
     return {{"centering_error", ""}, {"left_m", "m"},           {"right_m", "m"},     {"vectors_left", ""},

@@ -88,6 +88,7 @@ cv::Mat flow_overlay(std::span<const FlowTile> tiles, std::span<const CompassArr
 Needs SideCameras::needs() {
   Needs needs;
   for (const char* role : kSideRoles) needs.cameras.push_back({role, CameraNeed::Channel::grey, /*pinhole=*/true});
+  needs.commands = {CommandType::velocity};
   return needs;
 }
 

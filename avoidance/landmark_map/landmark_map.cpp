@@ -21,7 +21,7 @@ class LandmarkMapModule final : public Module {
   }
 
  private:
-  Needs do_needs() const override { return {{LandmarkObserver::need(config_.observer)}}; }
+  Needs do_needs() const override { return {{LandmarkObserver::need(config_.observer)}, {CommandType::velocity}}; }
   std::vector<Signal> do_signals() const override {
     return {{"corners", ""}, {"landmarks", ""}, {"obstacles", ""}, {"loom_per_s", "1/s"}, {"off_course_m", "m"}};
   }

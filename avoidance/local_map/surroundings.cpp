@@ -55,6 +55,7 @@ Needs Surroundings::needs(const LocalMapConfig& config) {
     std::ranges::move(DisparitySource::needs(config.depth, DisparitySource::Grey::unused, pair).cameras,
                       std::back_inserter(needs.cameras));
   }
+  needs.commands = {CommandType::velocity};
   return needs;
 }
 

@@ -75,7 +75,7 @@ class OnnxPolicy final : public Module {
 
  private:
   Needs do_needs() const override {
-    Needs needs;
+    Needs needs{.cameras = {}, .commands = {CommandType::velocity}};
     for (const PolicyImage& image : config_.images) needs.cameras.push_back({image.camera, image.channel});
     return needs;
   }

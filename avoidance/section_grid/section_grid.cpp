@@ -34,7 +34,11 @@ class SectionGridModule final : public Module {
   bool is_modified() const { return config_.law == Law::modified; }
   State state() const { return is_modified() ? pilot_.state() : law_.state(); }
 
-  Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::unused); }
+  Needs do_needs() const override {
+    Needs needs = DisparitySource::needs(config_.depth, DisparitySource::Grey::unused);
+    needs.commands = {CommandType::position};
+    return needs;
+  }
 
   std::vector<Signal> do_signals() const override {
     return {{"section", ""}, {"threat_share", ""}, {"unknown_share", ""}, {"rows_above_center", ""}};

@@ -34,7 +34,11 @@ class StereoCorridor final : public Module {
     return config;
   }
 
-  Needs do_needs() const override { return DisparitySource::needs(config_.depth, DisparitySource::Grey::needed); }
+  Needs do_needs() const override {
+    Needs needs = DisparitySource::needs(config_.depth, DisparitySource::Grey::needed);
+    needs.commands = {CommandType::velocity, CommandType::position};
+    return needs;
+  }
   std::vector<Signal> do_signals() const override {
     return {{"target_u_px", "px"},
             {"target_v_px", "px"},

@@ -76,6 +76,7 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
                                 std::to_string(weight_n) + " N, its main rotor lifts at most " +
                                 std::to_string(max_lift_n) + " N" + mass_unit_advice(model_.mass.mass_kg, max_lift_n));
   }
+  engine_on_ = true;
   HelicopterFlightState state{hover->state, {}, {model_.main_rotor.speed_radps, 0.0}};
   state.airframe.body.p_WB = p_WB;
   state.airframe.body.v_WB_B.setZero();
@@ -97,6 +98,15 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
   set_state(state, wind_W);
 }
 
+void HelicopterFlight::reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
+  engine_on_ = true;
+  HelicopterFlightState state{{}, {}, {engine_ ? 0.0 : model_.main_rotor.speed_radps, 0.0}};
+  state.airframe.body.p_WB = p_WB;
+  state.airframe.body.q_WB = from_roll_pitch_heading(0.0, 0.0, heading_rad);
+  for (size_t i = 0; i < servos_.size(); ++i) state.servos[i] = within_limits(servos_[i], {});
+  set_state(state, wind_W);
+}
+
 void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s) {
   std::array<double, 4> targets = to_array(command);
   for (const ActuatorFault& fault : faults_) {
@@ -112,8 +122,9 @@ void HelicopterFlight::step(const BladeAngles& command, const Eigen::Vector3d& w
       // The reaction torque of the rotors' acceleration acts on the body.
       const HelicopterModel model = at_speed(model_, state.rotor.speed_radps);
       HelicopterLoads loads = helicopter_loads(model, state.airframe, blade_angles(state), wind_W);
-      dx.tail<2>() = derivative(*engine_, model_.main_rotor.speed_radps, state.rotor,
-                                loads.main_rotor.power_w + loads.tail_rotor.power_w);
+      const double power_w = loads.main_rotor.power_w + loads.tail_rotor.power_w;
+      dx.tail<2>() = engine_on_ ? derivative(*engine_, model_.main_rotor.speed_radps, state.rotor, power_w)
+                                : coasting(*engine_, model_.main_rotor.speed_radps, state.rotor, power_w);
       loads.t_B.z() -= model.main_rotor.flapping.clockwise * engine_->inertia_kgm2 * dx[kRotor];
       dx.head<kServo>() = derivative(model, state.airframe, loads);
     } else {

@@ -30,6 +30,8 @@ class HelicopterFlight {
                                                                                "longitudinal_rad", "tail_rad"};
   // As in Vehicle.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
+  void reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
+  void set_engine(bool on) { engine_on_ = on; }
   void step(const BladeAngles& command, const Eigen::Vector3d& wind_W, double dt_s);
   void set_faults(std::span<const ActuatorFault> faults) { faults_.assign(faults.begin(), faults.end()); }
   const RigidBodyState& body() const { return state_.airframe.body; }
@@ -58,6 +60,7 @@ class HelicopterFlight {
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();
   bool within_validity_ = true;
   std::optional<GovernedEngineConfig> engine_;  ///< nullopt if the rotor speed is constant
+  bool engine_on_ = true;
 };
 
 }  // namespace hedgehop::dynamics::helicopter

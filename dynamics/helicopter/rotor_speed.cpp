@@ -19,4 +19,10 @@ Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps,
   return {torque_nm / engine.inertia_kgm2, saturated ? 0.0 : engine.integral_gain_prad * speed_error};
 }
 
+Eigen::Vector2d coasting(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
+                         double shaft_power_w) {
+  const double torque_nm = -shaft_power_w / std::max(state.speed_radps, kMinRotorSpeed * set_radps);
+  return {torque_nm / engine.inertia_kgm2, 0.0};
+}
+
 }  // namespace hedgehop::dynamics::helicopter

@@ -56,4 +56,8 @@ double throttle(const GovernedEngineConfig& engine, double set_radps, const Roto
 Eigen::Vector2d derivative(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
                            double shaft_power_w);
 
+/// As derivative(), with the engine off: no torque drives the rotors, and the integral is constant.
+Eigen::Vector2d coasting(const GovernedEngineConfig& engine, double set_radps, const RotorSpeedState& state,
+                         double shaft_power_w);
+
 }  // namespace hedgehop::dynamics::helicopter

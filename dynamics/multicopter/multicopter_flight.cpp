@@ -168,8 +168,14 @@ void MulticopterFlight::set_state(const MulticopterFlightState& state, const Eig
   specific_force_B_ = loads.f_B / model_.mass.mass_kg;
 }
 
-void MulticopterFlight::step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
-  PerRotor commanded_radps = allocate(model_, command);
+void MulticopterFlight::reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
+  MulticopterFlightState state{.body = {}, .speeds_radps = zero_rates(model_)};
+  state.body.p_WB = p_WB;
+  state.body.q_WB = from_roll_pitch_heading(0.0, 0.0, heading_rad);
+  set_state(state, wind_W);
+}
+
+void MulticopterFlight::step_rotors(PerRotor commanded_radps, const Eigen::Vector3d& wind_W, double dt_s) {
   for (const ActuatorFault& fault : faults_) {
     const auto i = static_cast<Eigen::Index>(fault.actuator);
     commanded_radps[i] = faulty_command(fault, commanded_radps[i], state_.speeds_radps[i]);

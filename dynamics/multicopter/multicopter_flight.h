@@ -63,7 +63,10 @@ class MulticopterFlight {
 
   // As in Vehicle.
   void reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
-  void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s);
+  void reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W);
+  void step_controls(const Controls& command, const Eigen::Vector3d& wind_W, double dt_s) {
+    step_rotors(allocate(model_, command), wind_W, dt_s);
+  }
   void set_faults(std::span<const ActuatorFault> faults) { faults_.assign(faults.begin(), faults.end()); }
   const RigidBodyState& body() const { return state_.body; }
   const Eigen::Vector3d& specific_force_B() const { return specific_force_B_; }
@@ -72,7 +75,9 @@ class MulticopterFlight {
 
   const MulticopterModel& model() const { return model_; }
   const MulticopterFlightState& state() const { return state_; }
-  /// Advances with commanded rotor speeds, rad/s. Parameters as Vehicle::step().
+  /// Advances with commanded rotor speeds, rad/s, and the faults of the motors. Parameters as Vehicle::step().
+  void step_rotors(PerRotor commanded_radps, const Eigen::Vector3d& wind_W, double dt_s);
+  /// As step_rotors(), without faults.
   void step(const PerRotor& commanded_radps, const Eigen::Vector3d& wind_W, double dt_s);
   /// Sets the state. @param wind_W  velocity of the air in W at this instant, m/s.
   void set_state(const MulticopterFlightState& state, const Eigen::Vector3d& wind_W);

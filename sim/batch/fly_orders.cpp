@@ -16,11 +16,13 @@ namespace {
 
 using Status = FlightRecord::Status;
 
-std::vector<std::string> worker_command(const Order& order, const FlyOptions& options) {
+/// @param worker  number of the process, for an autopilot of its own.
+std::vector<std::string> worker_command(const Order& order, const FlyOptions& options, size_t worker) {
   std::vector<std::string> command{options.program.string()};
   for (std::string& argument : run_arguments(order)) command.push_back(std::move(argument));
   const std::string folder = (options.out / order.id).string(), campaign = std::to_string(::getpid());
   command.insert(command.end(), {"--out", folder, "--worker-of", campaign});
+  if (worker > 0) command.insert(command.end(), {"--link-worker", std::to_string(worker)});
   if (!options.reports) command.insert(command.end(), {"--no-video", "--no-report"});
   if (!options.keep.empty()) {
     command.insert(command.end(), {"--keep-if-failed", fmt::format("{}", fmt::join(options.keep, ","))});
@@ -86,7 +88,15 @@ std::optional<EndedFlight> OrderFlights::next_unflown() {
 void OrderFlights::start(size_t index) {
   const Order& order = records_[index].order;
   forget_flight(options_.out / order.id);  // a worker that dies must not leave an earlier verdict behind
-  pool_.start(index, worker_command(order, options_));
+  const size_t worker = free_worker();
+  worker_of_[index] = worker;
+  pool_.start(index, worker_command(order, options_, worker));
+}
+
+size_t OrderFlights::free_worker() const {
+  size_t worker = 0;
+  while (std::ranges::any_of(worker_of_, [&](const auto& running) { return running.second == worker; })) ++worker;
+  return worker;
 }
 
 std::optional<EndedFlight> OrderFlights::next() {
@@ -98,6 +108,7 @@ std::optional<EndedFlight> OrderFlights::next() {
     }
     const std::optional<JobEnd> end = pool_.next();
     if (!end) return {};
+    worker_of_.erase(end->job);
     FlightRecord& record = records_[end->job];
     conclude(record, end->end);
     if (record.status != Status::missing) return EndedFlight{record};

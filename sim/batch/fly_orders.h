@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -61,15 +62,18 @@ class OrderFlights {
  private:
   std::optional<EndedFlight> next_unflown();
   void start(size_t index);
+  /// Returns the smallest number that no running worker has, for resources that only one process may use.
+  size_t free_worker() const;
   void conclude(FlightRecord& record, const WorkerEnd& end) const;
 
   FlyOptions options_;
   Reuse reuse_;
   std::vector<FlightRecord> records_;
-  std::set<std::string> dropped_;  ///< ids
-  size_t examined_ = 0;            ///< orders that next_unflown() has seen
-  std::vector<size_t> to_fly_;     ///< indices of records
-  size_t started_ = 0;             ///< of to_fly_
+  std::set<std::string> dropped_;       ///< ids
+  size_t examined_ = 0;                 ///< orders that next_unflown() has seen
+  std::vector<size_t> to_fly_;          ///< indices of records
+  size_t started_ = 0;                  ///< of to_fly_
+  std::map<size_t, size_t> worker_of_;  ///< number of the worker of each running order
   WorkerPool pool_;
 };
 

@@ -83,7 +83,7 @@ void count(const FlightRecord& record, GroupSummary& group) {
   group.reached += outcome == Outcome::reached ? 1 : 0;
   group.collided += outcome == Outcome::collided ? 1 : 0;
   group.timeout += outcome == Outcome::timeout ? 1 : 0;
-  group.fault += outcome == Outcome::fault ? 1 : 0;
+  group.fault += verdict == Verdict::fault ? 1 : 0;
 }
 
 }  // namespace

@@ -69,7 +69,15 @@ void declare_run(CLI::App& app, std::function<int()>& chosen, RunOptions& run) {
       ->transform(number())
       ->check(positive())
       ->type_name("SPEED");
-  command->add_option("--worker-of", run.worker_of)->group("");  // hidden: for batch and sweep
+  command
+      ->add_option("--bind", run.bind, "numeric address on which a link to an autopilot is served; default 127.0.0.1")
+      ->type_name("ADDRESS");
+  command
+      ->add_option("--replay-link", run.replay_link,
+                   "fly a linked scenario again with the packets of an earlier run, link.bin, without an autopilot")
+      ->type_name("FILE");
+  command->add_option("--link-worker", run.link_worker)->group("");  // hidden: for batch and sweep
+  command->add_option("--worker-of", run.worker_of)->group("");      // hidden: for batch and sweep
   command->add_option("--keep-if-failed", run.keep_if_failed)->delimiter(',')->group("");  // hidden: for batch
   command->add_flag("--json", run.json, "print result.json instead of the verdict");
   command->callback([&] { chosen = [&run] { return cli::run(run); }; });

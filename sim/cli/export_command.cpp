@@ -60,9 +60,10 @@ int export_run(const ExportOptions& options) {
                               options.compressed_images,
                               options.out.empty() ? folder / options.format : options.out};
   FlightProgress progress(scenario.name);
-  const Flight flight = export_flight(scenario, request, [&](double t_s, double duration_s, double goal_distance_m) {
-    progress.show(t_s, duration_s, goal_distance_m);
-  });
+  const Flight flight = export_flight(
+      scenario, request,
+      [&](double t_s, double duration_s, double goal_distance_m) { progress.show(t_s, duration_s, goal_distance_m); },
+      options.folder);
   progress.close();
   if (is_run && flight.result.trajectory_hash != hash) {
     notice(

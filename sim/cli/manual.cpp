@@ -24,6 +24,8 @@ constexpr Example kExamples[] = {
     {"run", "hedgehop run configs/quickstart.yaml --out out/quickstart", ""},
     {"run", "hedgehop run configs/local_map_city.yaml --renderer tiles", ""},
     {"run", "hedgehop run configs/garratt2009_city_0.yaml --seed 7 --set avoidance.flow_gain=3 --no-video --json", ""},
+    {"run", "hedgehop run configs/links/hover_quad.yaml --out out/hover", "ArduPilot flies"},
+    {"run", "hedgehop run configs/links/hover_quad.yaml --replay-link out/hover/link.bin", "the same flight again"},
     {"render", "hedgehop render configs/garratt2009_city_0.yaml --camera front --time 12 -o front.png", ""},
     {"render", "hedgehop render configs/garratt2009_city_0.yaml --camera front --what flow -o flow.png", ""},
     {"render", "hedgehop render --info", "the renderers of this machine"},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/flight/words.h"
+#include "sim/link/open_link.h"
 #include "sim/pages/replay.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
@@ -132,10 +134,33 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
       "{:.1f} ms\n",
       result.realtime_factor, result.wall_s, result.physics_rate_hz, result.render_ms.median_ms,
       result.decision_ms.median_ms);
+  if (const auto& link = result.link) {
+    fmt::print("  link: {}, {} packets, of which {} before the flight\n", link->kind, link->frames,
+               link->start_tick.value_or(link->frames));
+  }
   if (!result.truth_used.empty()) fmt::print("  truth used: {}\n", fmt::join(result.truth_used, "; "));
   for (const CheckResult& check : result.checks) print_check(check);
   if (result.checks.empty()) fmt::print("  no checks defined\n");
   fmt::print("  written: {}\n", (out / (has_report ? "report.html" : "result.json")).string());
+}
+
+/// Returns the autopilot of a scenario with a link; null without a link.
+std::unique_ptr<OutsideAutopilot> open_link(const RunOptions& options, const Scenario& scenario,
+                                            const std::filesystem::path& out) {
+  if (scenario.link) return link::open_link(scenario, {options.bind, options.link_worker, out, options.replay_link});
+  if (!options.replay_link.empty()) throw InputError("--replay-link: the scenario has no link");
+  std::error_code ignored;
+  std::filesystem::remove(out / link::kRecordingName, ignored);  // of an earlier flight
+  return nullptr;
+}
+
+void warn_of_link(const LinkFigures& link) {
+  if (link.malformed > 0)
+    notice(fmt::format("warning: link: {} packets of another format were dropped\n", link.malformed));
+  if (link.strangers > 0) {
+    notice(fmt::format("warning: link: {} packets from other addresses than {} were dropped\n", link.strangers,
+                       link.peer));
+  }
 }
 
 }  // namespace
@@ -160,13 +185,15 @@ int run(const RunOptions& options) {
   FilmConfig filming = scenario.film;
   filming.enabled = filming.enabled || keeps(options, "film", true);
   RunWatcher watcher(scenario.name, filming, out, options.worker_of != 0, options.view);
-  Simulation simulation(std::move(loaded), &watcher);
+  std::unique_ptr<OutsideAutopilot> autopilot = open_link(options, scenario, out);
+  Simulation simulation(std::move(loaded), &watcher, autopilot.get());
   std::optional<LiveView> view;
   if (options.view) view.emplace(simulation);
   std::optional<FlightPace> pace;
   if (options.pace) pace.emplace(*options.pace);
   const Flight flight = fly(simulation, watcher, view ? &*view : nullptr, pace ? &*pace : nullptr);
   watcher.close();
+  autopilot.reset();  // ends its process and closes the recording
   const bool failed = !holds(verdict_of(flight.result));
   std::error_code ignored;
   if (!scenario.film.enabled && !keeps(options, "film", failed)) std::filesystem::remove(film, ignored);
@@ -190,6 +217,7 @@ int run(const RunOptions& options) {
     has_report = false;
     notice(fmt::format("{}\n", absent.what()));
   }
+  if (flight.result.link) warn_of_link(*flight.result.link);
   if (flight.result.goal_missed_unchecked && options.worker_of == 0) {
     notice(fmt::format("warning: {}: {}\n", scenario.name, kGoalMissedUnchecked));
   }

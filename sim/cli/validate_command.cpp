@@ -32,7 +32,9 @@ bool is_sweep(const std::filesystem::path& file) {
 /// Places the vehicle of a flight: some errors show only in the assembled parts.
 void assemble(const Order& order) {
   try {
-    Simulation(load_flight(order.scenario, order.overrides, order.seed));
+    LoadedScenario loaded = load_flight(order.scenario, order.overrides, order.seed);
+    loaded.scenario.link.reset();
+    Simulation(std::move(loaded));
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", order.scenario.string(), error.what()));
   }

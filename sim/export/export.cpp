@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@
 #include "sim/export/sensor_record.h"
 #include "sim/export/true_images.h"
 #include "sim/flight/build.h"
+#include "sim/link/open_link.h"
 #include "sim/record/image_file.h"
 #include "sim/record/labels_file.h"
 #include "sim/scenario/rig.h"
@@ -202,13 +204,15 @@ void write_origin(const Scenario& scenario, const ExportRequest& request, const 
   write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");
 }
 
-Flight export_data_set(const Scenario& scenario, const ExportRequest& request, const Recorder::Progress& progress) {
+Flight export_data_set(const Scenario& scenario, const ExportRequest& request, const Recorder::Progress& progress,
+                       const std::filesystem::path& run_folder) {
   SensorRecord record;
   record.cameras = select_cameras(scenario, request.cameras);
   record.imu_config = scenario.avionics.imu;
   check(request, record);
   Recorder recorder(request, record, progress);
-  Flight flight = Simulation(scenario, {}, &recorder).run();
+  const std::unique_ptr<OutsideAutopilot> autopilot = link::recorded_link(scenario, run_folder);
+  Flight flight = Simulation(scenario, {}, &recorder, autopilot.get()).run();
   recorder.close();
   for (const DataFile& file : texts(request.format, record)) {
     std::filesystem::create_directories((request.out / file.name).parent_path());
@@ -221,9 +225,10 @@ Flight export_data_set(const Scenario& scenario, const ExportRequest& request, c
 }  // namespace
 
 Flight export_flight(const Scenario& scenario, const ExportRequest& request,
-                     const std::function<void(double, double, double)>& progress) {
-  Flight flight =
-      is_log(request.format) ? export_log(scenario, request, progress) : export_data_set(scenario, request, progress);
+                     const std::function<void(double, double, double)>& progress,
+                     const std::filesystem::path& run_folder) {
+  Flight flight = is_log(request.format) ? export_log(scenario, request, progress, run_folder)
+                                         : export_data_set(scenario, request, progress, run_folder);
   write_origin(scenario, request, flight);
   return flight;
 }

@@ -32,8 +32,10 @@ struct ExportRequest {
 /// the truth. The depth of a TUM data set is true. A log also has the module's decisions and the scene. Throws
 /// InputError for a camera that the rig lacks or the format does not support, and for a folder that is not empty;
 /// std::runtime_error for a file that cannot be written.
-/// @param progress  as FlightWatcher::on_progress. @return the flight, equal to one without export.
+/// @param progress  as FlightWatcher::on_progress. @param run_folder  with the recording of a linked flight.
+/// @return the flight, equal to one without export.
 Flight export_flight(const Scenario& scenario, const ExportRequest& request,
-                     const std::function<void(double t_s, double duration_s, double goal_distance_m)>& progress);
+                     const std::function<void(double t_s, double duration_s, double goal_distance_m)>& progress,
+                     const std::filesystem::path& run_folder = {});
 
 }  // namespace hedgehop::sim

@@ -10,6 +10,7 @@
 #include "sim/export/log_recorder.h"
 #include "sim/export/rosbag_log.h"
 #include "sim/export/ulog_log.h"
+#include "sim/link/open_link.h"
 #include "sim/simulation/simulation.h"
 
 namespace hedgehop::sim {
@@ -24,11 +25,13 @@ std::unique_ptr<LogSink> log_of(const ExportRequest& request) {
 }  // namespace
 
 Flight export_log(const Scenario& scenario, const ExportRequest& request,
-                  const std::function<void(double, double, double)>& progress) {
+                  const std::function<void(double, double, double)>& progress,
+                  const std::filesystem::path& run_folder) {
   require_empty(request.out);
   const std::unique_ptr<LogSink> log = log_of(request);
   LogRecorder recorder(scenario, request.cameras, request.truth, *log, request.out, progress);
-  Flight flight = Simulation(scenario, {}, &recorder).run();
+  const std::unique_ptr<OutsideAutopilot> autopilot = link::recorded_link(scenario, run_folder);
+  Flight flight = Simulation(scenario, {}, &recorder, autopilot.get()).run();
   recorder.close(flight);
   return flight;
 }

@@ -10,7 +10,8 @@ namespace hedgehop::sim {
 
 /// Does the work of export_flight() for a log.
 Flight export_log(const Scenario& scenario, const ExportRequest& request,
-                  const std::function<void(double t_s, double duration_s, double goal_distance_m)>& progress);
+                  const std::function<void(double t_s, double duration_s, double goal_distance_m)>& progress,
+                  const std::filesystem::path& run_folder);
 
 /// Returns the time of the start of a flight in a format, ns since 1970.
 int64_t start_time_ns(DataFormat format);

@@ -14,12 +14,15 @@ std::string_view to_string(Outcome outcome) {
       return "timeout";
     case Outcome::fault:
       return "fault";
+    case Outcome::link_lost:
+      return "link_lost";
   }
   return "fault";
 }
 
 std::optional<Outcome> parse_outcome(std::string_view text) {
-  for (const Outcome outcome : {Outcome::reached, Outcome::collided, Outcome::timeout, Outcome::fault}) {
+  for (const Outcome outcome :
+       {Outcome::reached, Outcome::collided, Outcome::timeout, Outcome::fault, Outcome::link_lost}) {
     if (text == to_string(outcome)) return outcome;
   }
   return {};
@@ -42,7 +45,7 @@ std::string_view to_string(Verdict verdict) {
 }
 
 Verdict verdict_of(const FlightResult& result) {
-  if (result.outcome == Outcome::fault) return Verdict::fault;
+  if (result.outcome == Outcome::fault || result.outcome == Outcome::link_lost) return Verdict::fault;
   if (result.checks.empty()) return Verdict::unchecked;
   return std::ranges::all_of(result.checks, &CheckResult::passed) ? Verdict::passed : Verdict::failed;
 }

@@ -48,6 +48,7 @@ enum class Outcome {
   collided,  ///< contact of the hull with a solid or the ground
   timeout,   ///< the scenario's duration elapsed; the normal end of a scenario without a goal
   fault,     ///< the module threw an exception, or the state became non-finite
+  link_lost  ///< the autopilot outside Hedgehop stopped, restarted or refused the state
 };
 std::string_view to_string(Outcome outcome);
 /// Inverse of to_string().
@@ -133,12 +134,27 @@ struct Libraries {
   std::string renderer;   ///< one line: "tiles", or vendor, renderer and version of OpenGL
 };
 
+/// Counts of a link to an autopilot outside Hedgehop. Repeats and answers sent again depend on wall time.
+struct LinkFigures {
+  std::string kind;                   ///< "ardupilot_json"
+  std::string peer;                   ///< address of the autopilot; empty for a replay
+  int64_t frames = 0;                 ///< physics steps
+  int64_t repeated = 0, old = 0;      ///< dropped packets: of the last step again, of an earlier step
+  int64_t resent = 0;                 ///< answers sent again
+  int64_t missed = 0;                 ///< packets that never came
+  int64_t unanswered = 0;             ///< states that the autopilot did not answer
+  int64_t malformed = 0;              ///< packets of another format
+  int64_t strangers = 0;              ///< packets from other addresses
+  std::optional<int64_t> start_tick;  ///< physics steps before the flight; nullopt if it did not start
+  double waited_s = 0.0;              ///< wall time of waiting for the autopilot
+};
+
 /// Verdict on a flight.
 enum class Verdict {
   passed,     ///< the flight has checks, and all hold
   failed,     ///< a check does not hold
   unchecked,  ///< the flight has no checks
-  fault,      ///< the flight ended by a fault
+  fault,      ///< the flight ended by a fault or a lost link
   not_flown   ///< there is no result
 };
 std::string_view to_string(Verdict verdict);
@@ -168,7 +184,8 @@ struct FlightResult {
   std::string trajectory_hash;  ///< of the true state at every control tick, bit for bit
   Libraries libraries;
   std::vector<MetricValue> metrics;
-  scenes::SceneFigures scene;  ///< of the obstacles within one meter of the start's altitude
+  scenes::SceneFigures scene;       ///< of the obstacles within one meter of the start's altitude
+  std::optional<LinkFigures> link;  ///< of a linked flight
 };
 
 /// Returns the verdict on a flight that has a result; every other decision of "passed" uses this function.

@@ -96,6 +96,37 @@ std::vector<CheckResult> checks_from(const JsonReader& result) {
   return checks;
 }
 
+Json link_json(const LinkFigures& link) {
+  return Json{{"kind", link.kind},
+              {"peer", link.peer},
+              {"frames", link.frames},
+              {"repeated", link.repeated},
+              {"old", link.old},
+              {"resent", link.resent},
+              {"missed", link.missed},
+              {"unanswered", link.unanswered},
+              {"malformed", link.malformed},
+              {"strangers", link.strangers},
+              {"start_tick", link.start_tick ? Json(*link.start_tick) : Json(nullptr)}};
+}
+
+std::optional<LinkFigures> link_from(const JsonReader& result) {
+  if (!result.has("link")) return std::nullopt;
+  const JsonReader link = result.object("link");
+  LinkFigures figures{.kind = link.text("kind"), .peer = link.text("peer")};
+  figures.frames = link.count("frames");
+  figures.repeated = link.count("repeated");
+  figures.old = link.count("old");
+  figures.resent = link.count("resent");
+  figures.missed = link.count("missed");
+  figures.unanswered = link.count("unanswered");
+  figures.malformed = link.count("malformed");
+  figures.strangers = link.count("strangers");
+  if (link.has("start_tick") && !link.json().at("start_tick").is_null()) figures.start_tick = link.count("start_tick");
+  figures.waited_s = result.object("time").number("link_wait_s");
+  return figures;
+}
+
 std::vector<MetricValue> metrics_from(const JsonReader& result) {
   const JsonReader values = result.object("metrics"), units = result.object("metric_units"),
                    kinds = result.object("metric_kinds");
@@ -178,6 +209,10 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
                        {"median_gap_m", json_number(result.scene.median_gap_m)},
                        {"covered_share", json_number(result.scene.covered_share)},
                        {"density_per_m2", json_number(result.scene.density_pm2)}};
+  if (result.link) {
+    json["link"] = link_json(*result.link);
+    json["time"] = Json{{"link_wait_s", json_number(result.link->waited_s)}};
+  }
   json["metrics"] = Json::object();
   json["metric_units"] = Json::object();
   json["metric_kinds"] = Json::object();
@@ -228,6 +263,7 @@ RunResult result_from_json(const Json& json) {
                   .median_gap_m = scene.number("median_gap_m", kInfinity),
                   .covered_share = scene.number("covered_share"),
                   .density_pm2 = scene.number("density_per_m2")};
+  flight.link = link_from(result);
   return run;
 }
 

@@ -16,6 +16,14 @@ bool same_cameras(const avoidance::Needs& a, const avoidance::Needs& b) {
   });
 }
 
+/// Returns the needs of both modules; the types of command are not declared if one of the two does not declare its own.
+avoidance::Needs needs_of_both(const avoidance::Needs& a, const avoidance::Needs& b) {
+  avoidance::Needs both = a;
+  if (b.commands.empty()) both.commands.clear();
+  if (!both.commands.empty()) both.commands.insert(both.commands.end(), b.commands.begin(), b.commands.end());
+  return both;
+}
+
 class Takeover : public avoidance::Module {
  public:
   Takeover(std::unique_ptr<Module> before, std::unique_ptr<Module> after, int64_t at_ns)
@@ -31,7 +39,7 @@ class Takeover : public avoidance::Module {
   }
 
  private:
-  avoidance::Needs do_needs() const override { return before_->needs(); }
+  avoidance::Needs do_needs() const override { return needs_of_both(before_->needs(), after_->needs()); }
   std::vector<avoidance::Signal> do_signals() const override { return signals_; }
   void do_reset(const avoidance::Setup& setup) override {
     has_taken_over_ = false;

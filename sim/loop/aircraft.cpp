@@ -20,13 +20,39 @@ void Aircraft::reset(const CollisionWorld& world) {
   avionics_.reset(truth(world, 0));
 }
 
+void Aircraft::reset_on_stand(const CollisionWorld& world) {
+  Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
+  if (const std::optional<double> stand_m = stand_altitude_m(scenario_)) p_WB.z() = -*stand_m;
+  wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
+  vehicle_.reset_on_stand(p_WB, scenario_.start.heading_rad, wind_W_);
+  on_stand_ = true;
+  avionics_.reset(truth(world, 0));
+}
+
 void Aircraft::move(int64_t tick) {
   if (!scenario_.failures.empty()) {
     actuator_faults(scenario_.failures, ticks_.t_ns(tick), faults_);
     vehicle_.set_faults(faults_);
   }
   wind_W_ = wind_.sample(-body().p_WB.z(), body().q_WB * body().v_WB_B, ticks_.dt_s());
-  vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+  if (on_stand_) {
+    const bool lifts = vehicle_.step_on_stand(actuators_, wind_W_, ticks_.dt_s());
+    on_stand_ = !(lifts && engine_on_);
+  } else {
+    vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+  }
+}
+
+Eigen::Vector3d Aircraft::specific_force_B() const {
+  if (!on_stand_) return vehicle_.specific_force_B();
+  return body().q_WB.conjugate() * Eigen::Vector3d(0.0, 0.0, -dynamics::kGravityMps2);
+}
+
+dynamics::sensors::BeamDistance Aircraft::beam_distance(const CollisionWorld& world, int64_t tick) {
+  surroundings_ = {&world, ticks_.t_s(tick)};
+  return [this](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
+    return surroundings_.world->distance_along(p_W, direction_W, reach_m, surroundings_.t_s);
+  };
 }
 
 dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world, int64_t tick) {
@@ -36,10 +62,7 @@ dynamics::SensedTruth Aircraft::truth(const CollisionWorld& world, int64_t tick)
     return surroundings_.world->height_above_surface(body().p_WB + Eigen::Vector3d(north_m, east_m, 0.0),
                                                      surroundings_.t_s);
   };
-  const auto beam_distance = [this](const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m) {
-    return surroundings_.world->distance_along(p_W, direction_W, reach_m, surroundings_.t_s);
-  };
-  return {body(), vehicle_.specific_force_B(), height_at_offset(0.0, 0.0), height_at_offset, beam_distance};
+  return {body(), specific_force_B(), height_at_offset(0.0, 0.0), height_at_offset, beam_distance(world, tick)};
 }
 
 Eigen::Isometry3d Aircraft::X_WB() const {

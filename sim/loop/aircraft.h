@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/collision/proximity.h"
+#include "sim/loop/outside_autopilot.h"
 #include "sim/loop/shutter.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/flight_parts.h"
@@ -19,6 +20,10 @@ class Aircraft {
 
   /// Sets a trimmed hover at the drawn start. Throws InputError if the vehicle cannot hover.
   void reset(const CollisionWorld& world);
+  /// Puts the vehicle of a linked flight at rest on its stand. Its flight starts with begin_linked_flight().
+  void reset_on_stand(const CollisionWorld& world);
+  /// Starts the sensors of a linked flight at its start.
+  void begin_linked_flight(const CollisionWorld& world) { avionics_.reset(truth(world, 0)); }
   /// Reads the sensors that are due on this tick. @param flow_velocity  the velocimeter, if it has an image.
   void sense(int64_t tick, const CollisionWorld& world, const dynamics::VelocitySensor& flow_velocity = {}) {
     avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);
@@ -27,8 +32,20 @@ class Aircraft {
   void run_autopilot(const dynamics::control::Setpoint& setpoint, double dt_s) {
     actuators_ = avionics_.control(setpoint, dt_s);
   }
+  /// Replaces the actuator commands of the autopilot.
+  void command_actuators(const OutsideCommand& command) {
+    actuators_ = command.actuators;
+    engine_on_ = command.engine_on;
+    vehicle_.set_engine(engine_on_);
+  }
   /// Advances by one tick. @param tick  before the step.
   void move(int64_t tick);
+  /// Whether the stand of a linked flight holds the vehicle.
+  bool on_stand() const { return on_stand_; }
+  /// Specific force at the mass center, including that of the stand, m/s^2.
+  Eigen::Vector3d specific_force_B() const;
+  /// Returns the true distance along beams; valid until the next call of sense() or this function.
+  dynamics::sensors::BeamDistance beam_distance(const CollisionWorld& world, int64_t tick);
 
   Eigen::Isometry3d X_WB() const;
   /// Returns the motion without a clearance.
@@ -54,7 +71,8 @@ class Aircraft {
     double t_s = 0.0;
   } surroundings_;
   std::vector<dynamics::ActuatorFault> faults_;  ///< of this tick
-  dynamics::Controls actuators_ = dynamics::Controls::Zero();
+  dynamics::ActuatorCommand actuators_ = dynamics::Controls(dynamics::Controls::Zero());
+  bool on_stand_ = false, engine_on_ = true;
 };
 
 }  // namespace hedgehop::sim

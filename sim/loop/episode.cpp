@@ -12,7 +12,7 @@
 
 namespace hedgehop::sim {
 Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher,
-                 MapObserver* map_observer)
+                 MapObserver* map_observer, OutsideAutopilot* outside)
     : scenario_(scenario),
       ticks_(scenario.physics_rate_hz.value()),
       environment_(environment),
@@ -22,12 +22,17 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
              watcher ? watcher->module_folder() : std::filesystem::path()),
       watcher_dispatch_(watcher, ticks_, cameras_, aircraft_),
       map_observer_(map_observer),
+      outside_(outside),
       control_period_(ticks_.period(static_cast<double>(scenario.control_rate_hz))),
       log_(*environment.scene, aircraft_.vehicle()) {
   if (scenario.velocimeter.enabled) {
     velocimeter_.emplace(cameras_.index(scenario.velocimeter.camera), cameras_);
   }
-  aircraft_.reset(environment_.collision);
+  if (outside_) {
+    take_off();
+  } else {
+    aircraft_.reset(environment_.collision);
+  }
   const double heading_rad = pilot_.route().goal().heading_rad;
   pilot_.reset(environment_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
   if (const std::string fault = signal_fault(pilot_.module().signals()); !fault.empty()) {
@@ -55,11 +60,12 @@ void Episode::begin_tick() {
   read_sensors();
   watcher_dispatch_.send_sensors(tick_, motion());
   observation_.reset();
+  decision_made_.reset();
   if (pilot_.decides(tick_)) observation_ = pilot_.observe(tick_, to_navigation_state(aircraft_.avionics()));
-  if (const std::optional<Ending> reason = ending()) {
-    complete_tick(nullptr);
-    end(*reason);
-  }
+  const std::optional<Ending> reason = over() ? end_ : ending();
+  if (!reason) return;
+  complete_tick(nullptr);
+  end(*reason);
 }
 
 void Episode::complete_tick(const avoidance::Command* command) {
@@ -83,6 +89,7 @@ Flight Episode::flight() const {
   for (const FailureConfig& failure : scenario_.failures) result.failures.push_back(to_text(failure));
   result.goal_distance_m = goal_distance_m();
   result.physics_rate_hz = *scenario_.physics_rate_hz;
+  if (outside_) result.link = outside_->figures();
   result.decision_ms = decision_.summary();
   result.render_ms = render_.summary();
   result.velocimeter_ms = velocimetry_.summary();
@@ -143,7 +150,9 @@ void Episode::read_sensors() {
 void Episode::decide() {
   call_module([this] {
     const StageTimer::Lap lap = decision_.lap();
-    log_.add(ticks_.t_s(tick_), pilot_.decide(tick_, *observation_));
+    avoidance::Decision decision = pilot_.decide(tick_, *observation_);
+    log_.add(ticks_.t_s(tick_), decision);
+    if (outside_) decision_made_ = std::move(decision);
   });
   if (!over()) {
     watcher_dispatch_.send_decision(log_.tables(), [this] { return annotate(); });
@@ -193,13 +202,13 @@ void Episode::observe_map() {
 
 void Episode::run_autopilot() {
   const dynamics::control::Setpoint& setpoint = pilot_.setpoint(tick_);
-  aircraft_.run_autopilot(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
+  if (!outside_) aircraft_.run_autopilot(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
   log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
   watcher_dispatch_.send_row(log_.tables());
 }
 
-/// Returns the end of the flight on this tick, if any.
-std::optional<Episode::Ending> Episode::ending() const {
+/// Returns the end of the flight by its motion, if any.
+std::optional<Episode::Ending> Episode::ending_of_motion() const {
   const dynamics::RigidBodyState& body = aircraft_.body();
   if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
     return Ending{Outcome::fault,
@@ -212,7 +221,13 @@ std::optional<Episode::Ending> Episode::ending() const {
                                  : scenes::solid_at(*environment_.scene, *proximity_.nearest_solid).name;
     return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
   }
-  if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(body.p_WB)) {
+  return std::nullopt;
+}
+
+/// Returns the end of the flight on this tick, if any.
+std::optional<Episode::Ending> Episode::ending() const {
+  if (std::optional<Ending> reason = ending_of_motion()) return reason;
+  if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(aircraft_.body().p_WB)) {
     return Ending{Outcome::reached, {}};
   }
   if (tick_ >= ticks_.ticks(scenario_.duration_s)) return Ending{Outcome::timeout, {}};
@@ -220,6 +235,10 @@ std::optional<Episode::Ending> Episode::ending() const {
 }
 
 void Episode::move() {
+  if (outside_) {
+    move_outside();
+    return;
+  }
   const StageTimer::Lap lap = physics_.lap();
   aircraft_.move(tick_);
 }

@@ -14,6 +14,7 @@
 #include "sim/loop/flight_log.h"
 #include "sim/loop/map_log.h"
 #include "sim/loop/module_pilot.h"
+#include "sim/loop/outside_autopilot.h"
 #include "sim/loop/stage_timer.h"
 #include "sim/loop/velocimeter.h"
 #include "sim/loop/watcher_dispatch.h"
@@ -27,11 +28,12 @@ class Episode {
  public:
   /// Starts the flight and measures at time 0.
   /// @param environment, parts  of the scenario; scenario and environment outlive the episode.
-  /// @param watcher, map_observer  may be null.
+  /// @param watcher, map_observer  may be null. @param outside  of a scenario with a link, else null. It flies the
+  /// vehicle from its stand to the start before time 0, and may end the flight there.
   /// Throws InputError for errors that only the assembled parts show: a module without its camera, a vehicle that
   /// cannot hover at its start.
   Episode(const Scenario& scenario, FlightEnvironment& environment, FlightParts parts, FlightWatcher* watcher = nullptr,
-          MapObserver* map_observer = nullptr);
+          MapObserver* map_observer = nullptr, OutsideAutopilot* outside = nullptr);
   Episode(const Episode&) = delete;  // its parts refer to each other
   Episode& operator=(const Episode&) = delete;
 
@@ -63,6 +65,12 @@ class Episode {
     std::string cause;
   };
 
+  // A linked flight before time 0, and its physics step.
+  void take_off();
+  bool at_start() const;
+  OutsideInput outside_input();
+  void move_outside();
+
   // The steps of a tick, in this order.
   void begin_tick();
   void measure_proximity();
@@ -78,6 +86,7 @@ class Episode {
   void observe_map();
   void run_autopilot();
   std::optional<Ending> ending() const;
+  std::optional<Ending> ending_of_motion() const;
   void end(Ending reason);
   void move();
   std::optional<double> goal_distance_m() const;
@@ -91,13 +100,19 @@ class Episode {
   ModulePilot pilot_;
   WatcherDispatch watcher_dispatch_;
   MapObserver* const map_observer_;
+  OutsideAutopilot* const outside_;
   const int64_t control_period_;
 
   int64_t tick_ = 0;
+  int64_t outside_step_ = 0;                               ///< physics steps of the link, from before the flight
+  bool flying_ = false;                                    ///< whether a linked flight has started
+  Eigen::Vector3d p_WB_wanted_ = Eigen::Vector3d::Zero();  ///< start of a linked flight
+  avoidance::NavigationState navigation_;                  ///< of the last step of a linked flight
   Eigen::Vector3d p_WB_start_ = Eigen::Vector3d::Zero();
   Proximity proximity_;
   const avoidance::CameraFrame* ground_ = nullptr;     ///< the velocimeter's image of this tick
   std::optional<avoidance::Observation> observation_;  ///< of this tick, if a decision is due
+  std::optional<avoidance::Decision> decision_made_;   ///< on this tick, of a linked flight
   bool overridden_ = false;                            ///< whether the last command came from the caller
   FlightLog log_;
   MapLog map_log_;

@@ -120,7 +120,8 @@ void ModulePilot::queue_command(int64_t tick, const avoidance::Command& command)
 
 const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {
   while (!pending_.empty() && pending_.front().tick <= tick) {
-    setpoint_ = to_setpoint(pending_.front().command);
+    command_ = pending_.front().command;
+    setpoint_ = to_setpoint(*command_);
     pending_.pop_front();
   }
   return setpoint_;

@@ -50,6 +50,9 @@ class ModulePilot {
   /// Returns the setpoint of the autopilot: the last command whose latency is over. @param tick  increasing.
   const dynamics::control::Setpoint& setpoint(int64_t tick);
 
+  /// Returns the command of that setpoint; null before the first.
+  const avoidance::Command* command_in_effect() const { return command_ ? &*command_ : nullptr; }
+
   const avoidance::Module& module() const { return *module_; }
   const Route& route() const { return route_; }
   /// Returns the first camera that the module needs, if any; its map comes from this camera.
@@ -80,6 +83,7 @@ class ModulePilot {
   Route route_;
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick
   std::deque<PendingCommand> pending_;
+  std::optional<avoidance::Command> command_;
   dynamics::control::Setpoint setpoint_;
 };
 

@@ -4,8 +4,7 @@
 
 #include "dynamics/avionics.h"
 #include "sim/loop/cameras.h"
-#include "vision/flow/flow_velocity.h"
-#include "vision/flow/image_interpolation_flow.h"
+#include "vision/flow/ground_velocity.h"
 
 namespace hedgehop::sim {
 
@@ -25,19 +24,8 @@ class Velocimeter {
                                                    const dynamics::control::NavigationEstimate& navigation);
 
  private:
-  /// The estimate at the exposure of a frame.
-  struct Exposure {
-    int64_t t_ns = 0;
-    Eigen::Quaterniond q_WB_est = Eigen::Quaterniond::Identity();
-    Eigen::Quaterniond q_WB_gyro = Eigen::Quaterniond::Identity();
-    double height_above_ground_m = 0.0;
-  };
-
   size_t camera_;
-  vision::camera::PinholeCamera pinhole_;
-  Eigen::Isometry3d X_BC_;
-  vision::flow::ImageInterpolationFlow flow_;
-  std::optional<Exposure> last_;
+  vision::flow::GroundVelocity ground_;
 };
 
 }  // namespace hedgehop::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/fields/quantities.h"
 #include "sim/flight/result_io.h"
+#include "sim/link/open_link.h"
 #include "sim/record/film.h"
 #include "sim/record/image_file.h"
 #include "sim/simulation/simulation.h"
@@ -88,7 +90,8 @@ void write_film_strip(const std::filesystem::path& flight) {
   LoadedScenario loaded = load_flight(flight / "scenario.yaml");
   if (!shows_end) loaded.scenario.duration_s = end_s;
   StripWatcher watcher(loaded.scenario.film.rate_hz);
-  const FlightResult again = Simulation(std::move(loaded), &watcher).run().result;
+  const std::unique_ptr<OutsideAutopilot> autopilot = link::recorded_link(loaded.scenario, flight);
+  const FlightResult again = Simulation(std::move(loaded), &watcher, autopilot.get()).run().result;
   const double clearance_m = again.closest_obstacle.distance_m;
   if (approached && std::abs(clearance_m - closest.distance_m) > kSameFlightM) {
     throw std::runtime_error(

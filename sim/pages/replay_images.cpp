@@ -178,6 +178,7 @@ std::string camera_film(const RunRecord& run, double& rate_hz) {
   try {
     Scenario scenario = run.scenario;
     scenario.seed = run.result.info.seed;
+    scenario.link.reset();  // the poses are chosen
     Simulation simulation(std::move(scenario), hovering(run.scenario.rig, {}));
     Film film(file, rate_hz, sheet_plan(run.scenario.rig).size);
     for (int i = 0; i / rate_hz <= poses.end_s(); ++i) {

@@ -24,7 +24,7 @@ concept Either = std::same_as<std::remove_const_t<T>, Struct>;
 namespace message_fields {
 
 void list(auto& a, Either<avoidance::CameraNeed> auto& x) { a(x.role, x.channel, x.pinhole); }
-void list(auto& a, Either<avoidance::Needs> auto& x) { a(x.cameras); }
+void list(auto& a, Either<avoidance::Needs> auto& x) { a(x.cameras, x.commands); }
 void list(auto& a, Either<avoidance::Signal> auto& x) { a(x.name, x.unit); }
 void list(auto& a, Either<avoidance::MountedCamera> auto& x) { a(x.role, x.model, x.X_BC, x.rate_hz); }
 void list(auto& a, Either<avoidance::VehicleLimits> auto& x) {

@@ -1,8 +1,12 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sim/config/input_error.h"
 #include "sim/flight/build.h"
@@ -83,6 +87,10 @@ class PythonModule : public avoidance::Module {
       const py::object given_needs = given("needs", py::list());
       if (py::isinstance<py::str>(given_needs)) refuse(given_needs, "needs", kNeeds);
       for (const py::handle& need : given_needs) needs.cameras.push_back(to_need(need));
+      for (const std::string& type :
+           as<std::vector<std::string>>(given("commands", py::list()), "commands", kCommands)) {
+        needs.commands.push_back(to_type(type));
+      }
       return needs;
     });
   }
@@ -135,6 +143,14 @@ class PythonModule : public avoidance::Module {
     return as<avoidance::CameraNeed>(need, "needs", kNeeds);
   }
 
+  avoidance::CommandType to_type(const std::string& type) const {
+    const auto found = std::ranges::find(kTypes, type);
+    if (found == kTypes.end()) refuse(instance_.attr("commands"), "commands", kCommands);
+    return static_cast<avoidance::CommandType>(found - kTypes.begin());
+  }
+
+  static constexpr std::array<std::string_view, 4> kTypes = {"velocity", "position", "attitude", "hover"};
+  static constexpr const char* kCommands = "a list of command types: velocity, position, attitude, hover";
   static constexpr const char* kSignals = "a dict of names and units, both texts";
   static constexpr const char* kNeeds = "a list of cameras, each its role or a CameraNeed";
 

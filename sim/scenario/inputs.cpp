@@ -37,6 +37,12 @@ std::set<fs::path> named_files(const Scenario& scenario) {
   for (const CheckConfig& check : scenario.checks) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }
+  if (scenario.link) {
+    for (const std::string& word : std::visit([](const auto& link) { return link.command; }, *scenario.link)) {
+      std::error_code ignored;
+      if (fs::is_regular_file(word, ignored)) files.insert(word);
+    }
+  }
   const auto add_module = [&files](const AvoidanceConfig& config) {
     if (const PluginConfig* plugin = config.plugin()) files.insert(plugin->plugin);
     if (const PythonConfig* script = config.python()) files.insert(script->python);

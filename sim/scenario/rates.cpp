@@ -106,14 +106,14 @@ std::vector<FieldError> choose(Scenario& scenario) {
       others.push_back(rate);
     }
   }
-  scenario.physics_rate_hz = (kMinChosenPhysicsHz + multiple - 1) / multiple * multiple;
+  const int64_t min_hz = scenario.link ? kMinLinkedPhysicsHz : kMinChosenPhysicsHz;
+  scenario.physics_rate_hz = (min_hz + multiple - 1) / multiple * multiple;
   std::vector<FieldError> errors;
   for (const Rate& rate : others) {
-    const std::vector<double> nearest = nearest_rates(rate.hz, kMinChosenPhysicsHz, kMaxChosenPhysicsHz, multiple);
+    const std::vector<double> nearest = nearest_rates(rate.hz, min_hz, kMaxChosenPhysicsHz, multiple);
     errors.push_back(
-        {rate.path,
-         fmt::format("{} Hz and the other rates ({} Hz) do not divide one physics rate from {} to {} Hz{}", rate.hz,
-                     fmt::join(fitting, ", "), kMinChosenPhysicsHz, kMaxChosenPhysicsHz, advice(nearest))});
+        {rate.path, fmt::format("{} Hz and the other rates ({} Hz) do not divide one physics rate from {} to {} Hz{}",
+                                rate.hz, fmt::join(fitting, ", "), min_hz, kMaxChosenPhysicsHz, advice(nearest))});
   }
   return errors;
 }

@@ -8,8 +8,9 @@
 
 namespace hedgehop::sim {
 
-/// Range of the physics rate that a scenario gets if it states none, Hz.
-inline constexpr int64_t kMinChosenPhysicsHz = 500, kMaxChosenPhysicsHz = 2000;
+/// Range of the physics rate that a scenario gets if it states none, Hz. The minimum of a linked flight is higher,
+/// because autopilots sample their IMU at 1000 Hz.
+inline constexpr int64_t kMinChosenPhysicsHz = 500, kMinLinkedPhysicsHz = 1000, kMaxChosenPhysicsHz = 2000;
 
 /// Sets Scenario::physics_rate_hz, if the scenario states none, to the smallest rate in the range that the control rate
 /// and the rates of all sensors and cameras divide. The film is no input of the flight and has no influence.

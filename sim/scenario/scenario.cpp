@@ -58,6 +58,18 @@ void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   if (added.terrain) resolve(added.terrain->heightmap, "scene.terrain.heightmap");
 }
 
+/// Makes the paths of files in the command that starts an autopilot absolute.
+void resolve_files(std::optional<LinkConfig>& link, const Node& root) {
+  if (!link) return;
+  const std::filesystem::path folder = std::filesystem::path(position_of(root, "link").file).parent_path();
+  for (std::string& word : std::visit(
+           [](auto& chosen) -> auto& { return chosen.command; }, *link)) {
+    std::error_code ignored;
+    const std::filesystem::path file = std::filesystem::absolute(folder / word).lexically_normal();
+    if (std::filesystem::is_regular_file(file, ignored)) word = file.string();
+  }
+}
+
 /// Refuses a file of another kind by one error that names the kind, instead of an error per key.
 void require_scenario(const Node& root, ErrorList& errors) {
   struct FileKind {
@@ -92,6 +104,7 @@ LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::sp
   errors.throw_if_any();
   if (seed) scenario.seed = *seed;
   resolve_files(scenario.scene, root);
+  resolve_files(scenario.link, root);
   for (CheckConfig& check : scenario.checks) {
     if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
       path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();

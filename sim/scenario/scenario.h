@@ -20,6 +20,7 @@
 #include "sim/scenario/checks.h"
 #include "sim/scenario/drawing.h"
 #include "sim/scenario/failures.h"
+#include "sim/scenario/link_config.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
@@ -174,6 +175,7 @@ struct Scenario {
   VelocimeterConfig velocimeter;
   AvoidanceConfig avoidance;
   std::optional<TakeoverConfig> takeover;
+  std::optional<LinkConfig> link;  ///< without a link, Hedgehop's own autopilot flies
   std::vector<FailureConfig> failures;
   std::vector<CheckConfig> checks;
   bool may_collide = false;  ///< if false, `no_collision` is always checked
@@ -217,11 +219,18 @@ void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("velocimeter", c.velocimeter, {.meaning = "horizontal velocity from the optic flow of one camera"});
   v("avoidance", c.avoidance, {.required = true, .selector = "module", .meaning = "avoidance module"});
   v("takeover", c.takeover, {.meaning = "module that takes over during the flight; `hedgehop branch` writes it"});
+  v("link", c.link, {.meaning = "autopilot outside Hedgehop that flies the vehicle"});
   v("failures", c.failures, {.meaning = "failures in flight: of sensors, cameras, motors, servos or the command link"});
   v("checks", c.checks, {.selector = "check", .meaning = "checks of the flight, in addition to no_collision"});
   v("may_collide", c.may_collide, {.meaning = "whether collisions are allowed; if true, no_collision is not checked"});
   v("film", c.film, {.meaning = "video of the flight"});
   v("origin", c.origin, {.meaning = "origin of a counterexample; does not affect the flight"});
+}
+
+/// Returns the altitude of the stand of a linked flight, m above W's origin; nullopt if it is the start's.
+inline std::optional<double> stand_altitude_m(const Scenario& scenario) {
+  if (!scenario.link) return std::nullopt;
+  return std::visit([](const auto& link) { return link.stand_altitude_m; }, *scenario.link);
 }
 
 /// Returns the result of `make`, which builds a part of a flight from its config. A std::invalid_argument becomes an

@@ -57,6 +57,9 @@ class Validator {
     for (size_t i = 0; i < scenario_.route.size(); ++i)
       require_above(fmt::format("route.{}.altitude", i), scenario_.route[i].altitude_m);
     if (const auto& band = scenario_.altitude_band) require_above("altitude_band.min", band->min_m);
+    if (const std::optional<double> stand_m = stand_altitude_m(scenario_)) {
+      require_above("link.stand_altitude", *stand_m);
+    }
   }
 
   void start() {
@@ -164,6 +167,7 @@ class Validator {
   }
 
   void checks() { add_all(check_errors(scenario_)); }
+  void link() { add_all(link_errors(scenario_)); }
 
   Validation take() {
     Validation found{std::move(errors_), std::nullopt};
@@ -257,6 +261,7 @@ Validation validate(Scenario& scenario, ModuleSource source) {
   validator.parts();
   validator.failures();
   validator.checks();
+  validator.link();
   validator.module_with_cameras();
   return validator.take();
 }

@@ -32,6 +32,10 @@ std::string signal_fault(std::span<const avoidance::Signal> signals);
 /// begin with "checks".
 std::vector<FieldError> check_errors(const Scenario& scenario);
 
+/// Returns the errors of the link to an autopilot: motors that are not those of its frame, missing servos, a physics
+/// rate below its loop rate.
+std::vector<FieldError> link_errors(const Scenario& scenario);
+
 /// Returns the names of a scenario's checks as in its results, including the implied one.
 std::vector<std::string> check_names(const Scenario& scenario);
 

@@ -48,14 +48,21 @@ void keep_opencv_to_one_thread() {
 
 class Simulation::Impl {
  public:
-  Impl(Scenario scenario, FlightParts parts, ModuleMaker module, FlightWatcher* watcher)
-      : scenario_(std::move(scenario)), make_module_(std::move(module)), watcher_(watcher) {
+  Impl(Scenario scenario, FlightParts parts, ModuleMaker module, FlightWatcher* watcher, OutsideAutopilot* outside)
+      : scenario_(std::move(scenario)), make_module_(std::move(module)), watcher_(watcher), outside_(outside) {
+    if (scenario_.link && !outside_) {
+      throw InputError(FieldError{"link",
+                                  "an autopilot outside Hedgehop flies this scenario; valid: hedgehop run, batch "
+                                  "and sweep, or --set link=null"});
+    }
+    if (!scenario_.link && outside_) throw std::invalid_argument("the scenario has no link");
     keep_opencv_to_one_thread();
     environment_.emplace(scenario_);
     begin(std::move(parts));
   }
 
   void reset(uint64_t seed) {
+    if (outside_) throw std::logic_error("a linked flight cannot start again");
     episode_.reset();
     if (seed != scenario_.seed) {
       scenario_.seed = seed;
@@ -116,8 +123,8 @@ class Simulation::Impl {
     flying_s_ = 0.0;
     judge_.emplace();
     const Stopwatch stopwatch(flying_s_);
-    episode_.emplace(scenario_, *environment_, std::move(parts), watcher_, &*judge_);
-    if (episode_->proximity().collided) {
+    episode_.emplace(scenario_, *environment_, std::move(parts), watcher_, &*judge_, outside_);
+    if (!outside_ && episode_->proximity().collided) {
       throw InputError(
           FieldError{"start", fmt::format("the vehicle collides at the start: {}", episode_->flight().result.cause)});
     }
@@ -126,25 +133,27 @@ class Simulation::Impl {
   Scenario scenario_;
   ModuleMaker make_module_;
   FlightWatcher* watcher_;
+  OutsideAutopilot* outside_;
   std::optional<FlightEnvironment> environment_;
   std::optional<MapJudge> judge_;
   std::optional<Episode> episode_;  ///< refers to all of the above
   double flying_s_ = 0.0;           ///< wall time
 };
 
-Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher) {
+Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher, OutsideAutopilot* outside) {
   try {
-    impl_ = std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher);
+    impl_ =
+        std::make_unique<Impl>(std::move(loaded.scenario), std::move(loaded.parts), ModuleMaker{}, watcher, outside);
   } catch (const InputError& error) {
     throw at_positions(loaded.root.get(), error);
   }
 }
 
-Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher) {
+Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher, OutsideAutopilot* outside) {
   Validation found = validate(scenario, module ? ModuleSource::caller : ModuleSource::scenario);
   if (!found.errors.empty()) throw InputError(std::move(found.errors));
   FlightParts parts = *std::move(found.parts);
-  impl_ = std::make_unique<Impl>(std::move(scenario), std::move(parts), std::move(module), watcher);
+  impl_ = std::make_unique<Impl>(std::move(scenario), std::move(parts), std::move(module), watcher, outside);
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -18,6 +18,8 @@
 /// Connects the loop, which flies a scenario, with the verdict, which judges the flight.
 namespace hedgehop::sim {
 
+class OutsideAutopilot;
+
 /// Makes the module of a flight: a new one for each.
 using ModuleMaker = std::function<std::unique_ptr<avoidance::Module>()>;
 
@@ -42,17 +44,19 @@ struct ChosenPose {
 class Simulation {
  public:
   /// Starts the flight: at time 0 the cameras have exposed and the sensors have read, before the first decision.
-  /// @param watcher  may be null. Throws InputError for errors that only the assembled parts show (an invalid scene, a
+  /// @param watcher  may be null. @param outside  flies a scenario with a link, else null; it outlives the simulation.
+  /// Throws InputError for errors that only the assembled parts show (an invalid scene, a
   /// module without its camera, a vehicle that cannot hover), std::runtime_error if no context can be created.
-  explicit Simulation(LoadedScenario loaded, FlightWatcher* watcher = nullptr);
+  explicit Simulation(LoadedScenario loaded, FlightWatcher* watcher = nullptr, OutsideAutopilot* outside = nullptr);
   /// As above, for a scenario from a program. It is validated like a file (validate()); the messages are equal, without
   /// positions. @param module  replaces the scenario's module, which is not validated then.
-  explicit Simulation(Scenario scenario, ModuleMaker module = {}, FlightWatcher* watcher = nullptr);
+  explicit Simulation(Scenario scenario, ModuleMaker module = {}, FlightWatcher* watcher = nullptr,
+                      OutsideAutopilot* outside = nullptr);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Starts the same flight again, with the same scene and renderer.
+  /// Starts the same flight again, with the same scene and renderer. Throws std::logic_error for a linked flight.
   void reset();
   /// Starts the flight of another seed, with its world.
   void reset(uint64_t seed);

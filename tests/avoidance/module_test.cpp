@@ -17,9 +17,10 @@ class Scripted final : public Module {
  public:
   Decision next{VelocityCommand{}, "cruise", {0.0}};
   bool pinhole = false;
+  std::vector<CommandType> commands;
 
  private:
-  Needs do_needs() const override { return {{{"front", CameraNeed::Channel::grey, pinhole}}}; }
+  Needs do_needs() const override { return {{{"front", CameraNeed::Channel::grey, pinhole}}, commands}; }
   std::vector<Signal> do_signals() const override { return {{"one", ""}}; }
   void do_reset(const Setup&) override {}
   Decision do_update(const Observation&) override { return next; }
@@ -133,6 +134,20 @@ TEST_F(Checked, CommandsMustBeFinite) {
     module.next.command = bad;
     EXPECT_THROW(update(), std::logic_error);
   }
+}
+
+TEST_F(Checked, CommandsMustBeOfADeclaredType) {
+  module.commands = {CommandType::velocity, CommandType::position};
+  module.reset(setup);
+  for (const Command& good : {Command(VelocityCommand{}), Command(PositionCommand{}), Command(HoverCommand{})}) {
+    module.next.command = good;
+    EXPECT_NO_THROW(update());
+  }
+  module.next.command = AttitudeCommand{};
+  EXPECT_THROW(update(), std::logic_error);
+  module.commands.clear();  // not declared
+  module.reset(setup);
+  EXPECT_NO_THROW(update());
 }
 
 TEST_F(Checked, NumberOfSignalsMustMatchTheDeclaration) {

@@ -13,6 +13,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -42,7 +43,21 @@ def commands(text):
         yield from re.findall(r"\| `(hedgehop (?!list scenes`)[^`]*|(?:build|scripts)/[^`]* [^`]*|scripts/[^`]+)`(?= \|)", row)
 
 
+def free_instance():
+    """The number of an autopilot whose ports, and those of the next three, no other process uses: pages are tested in parallel."""
+    for instance in sorted(range(0, 92, 4), key=lambda number: (number * 7 + os.getpid()) % 92):
+        try:
+            for number in range(instance, instance + 4):
+                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+                    probe.bind(("127.0.0.1", 9002 + 10 * number))
+            return instance
+        except OSError:
+            continue
+    raise RuntimeError("no free port for an autopilot")
+
+
 def shortened_file(text):
+    text = text.replace("  type: ardupilot_json\n", f"  type: ardupilot_json\n  instance: {free_instance()}\n")
     text = re.sub(r"^(duration): .*$", rf"\1: {SHORT_S}", text, flags=re.M)
     text = re.sub(r"before: [0-9.]+", f"before: {SHORT_S}", text)
     text = re.sub(r"\bduration=[0-9.]+", f"duration={SHORT_S}", text)
@@ -118,7 +133,13 @@ class Commands(unittest.TestCase):
         (folder / "build").mkdir()
         (folder / "build" / "release").symlink_to(BUILD)
         (folder / "out").mkdir()
-        cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}"}
+        # Scripted peers fly instead of ArduPilot and PX4.
+        (folder / "bin").mkdir()
+        for name, peer in (("arducopter", "scripted_peer.py"), ("px4", "px4_peer.py")):
+            autopilot = folder / "bin" / name
+            autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/{peer}" "$@"\n')
+            autopilot.chmod(0o755)
+        cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{folder}/bin:{os.environ['PATH']}"}
 
     @classmethod
     def tearDownClass(cls):

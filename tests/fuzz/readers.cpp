@@ -6,9 +6,11 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <typeinfo>
+#include <variant>
 #include <vector>
 
 #include "avoidance/flow_balance/flow_balance.h"
@@ -22,6 +24,8 @@
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/fields/invalid_field.h"
+#include "sim/link/ardupilot_link.h"
+#include "sim/mavlink/frame.h"
 #include "sim/record/run_record.h"
 #include "sim/record/table.h"
 #include "sim/reproduce/paper.h"
@@ -83,6 +87,33 @@ void read_parameters(const std::filesystem::path& file) {
   faults.throw_if_any();
 }
 
+/// As a MAVLink stream over TCP is read: in fragments, whose lengths come from the bytes themselves.
+void read_mavlink(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
+  sim::mavlink::FrameDecoder pieces, whole;
+  std::vector<uint32_t> ids;
+  for (size_t at = 0; at < bytes.size();) {
+    const size_t length = std::min<size_t>(1 + bytes[at] % 64, bytes.size() - at);
+    for (const sim::mavlink::Frame& frame : pieces.decode(std::span(bytes).subspan(at, length)))
+      ids.push_back(frame.id);
+    at += length;
+  }
+  if (whole.decode(bytes).size() != ids.size()) throw std::logic_error("fragments change the frames");
+  if (ids.empty()) throw std::invalid_argument("no frame");
+}
+
+/// The packets of an autopilot as they arrive in flight, from the format of a recording.
+void read_packets(const std::filesystem::path& file) {
+  sim::Scenario scenario;
+  scenario.vehicle = dynamics::multicopter::MulticopterConfig{};
+  scenario.physics_rate_hz = 1000;
+  scenario.link = sim::ArduPilotLinkConfig{.multicopter = {.frame_class = 1, .frame_type = 0}};
+  sim::link::ArduPilotLink link(scenario, std::make_unique<sim::link::ReplaySource>(file));
+  sim::OutsideInput input;
+  while (std::holds_alternative<sim::OutsideCommand>(link.exchange(input))) ++input.step;
+}
+
 constexpr std::array kReaders = {
     Reader{"scenario", "yaml", read_scenario},
     Reader{"sweep", "yaml", [](const std::filesystem::path& file) { sim::read_sweep(file); }},
@@ -93,6 +124,7 @@ constexpr std::array kReaders = {
     Reader{"vehicle", "yaml", [](const std::filesystem::path& file) { sim::load_vehicle(file); }},
     Reader{"paper", "yaml", [](const std::filesystem::path& file) { sim::read_paper(file); }},
     Reader{"parameters", "yaml", read_parameters},
+    Reader{"mavlink", "bin", read_mavlink},
     Reader{"mesh_obj", "obj", read_mesh},
     Reader{"mesh_gltf", "gltf", read_mesh},
     Reader{"mesh_dae", "dae", read_mesh},
@@ -104,6 +136,7 @@ constexpr std::array kReaders = {
     Reader{"calibration", "txt", read_calibration},
     Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
     Reader{"columns", "csv", [](const std::filesystem::path& file) { sim::read_columns(file); }},
+    Reader{"packets", "bin", read_packets},
     Reader{"reference", "csv", [](const std::filesystem::path& file) { sim::read_reference_path(file); }},
 };
 

@@ -75,6 +75,10 @@ GO_TO_GOAL = textwrap.dedent("""
         needs = ["forward", hedgehop.CameraNeed("front", "depth")]
 
 
+    class CommandsOfNoType(Prints):
+        commands = ["velocity", "thrust"]
+
+
     class SignalsInAList(Prints):
         signals = ["nearest"]
 
@@ -178,6 +182,7 @@ class FromFile(unittest.TestCase):
                                  ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
                                  ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
                                  ("TakesNoSetup", "the module cannot be reset: TypeError: TakesNoSetup.reset() takes 1 positional argument"),
+                                 ("CommandsOfNoType", "'commands' must be a list of command types: velocity, position, attitude, hover, got ['velocity', 'thrust']"),
                                  ("SignalsInAList", "'signals' must be a dict of names and units, both texts, got ['nearest']")):
             with self.subTest(class_name):
                 status, result, said = run_program(CITY, self.python(class_name), self.folder / "itself")

@@ -119,7 +119,7 @@ function worstFlights(table, rows) {
     {title: 'Completed, but a check failed', rows: failing('completed').slice(0, worstOfAKind), words: (row) => table.why[row]},
     {title: 'Goal reached, but a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
     {title: 'Passed, slowest first', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
-    {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || table.value('outcome', row) === 'fault').slice(0, worstOfAKind),
+    {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || ['fault', 'link_lost'].includes(table.value('outcome', row))).slice(0, worstOfAKind),
       words: () => ''},
   ];
 }

@@ -8,6 +8,7 @@ function judge(outcome, goal) {
     case 'collided': return {words: 'Collided', good: false};
     case 'timeout': return goal ? {words: 'Timeout before the goal', good: false} : {words: 'Completed', good: true};
     case 'fault': return {words: 'Ended by a fault', good: false};
+    case 'link_lost': return {words: 'Lost the autopilot', good: false};
     default: return {words: outcome, good: false};
   }
 }

@@ -34,7 +34,7 @@ function storyLines({result, path}) {
   const lines = [];
   if (result.outcome === 'collided') {
     lines.push(`Hit ${result.closest_obstacle?.what || 'an obstacle'} at ${fixed(t_s, 1)} s, flying ${fixed(path.speed[end], 1)} m/s at ${fixed(path.altitude[end], 1)} m altitude.`);
-  } else if (result.outcome === 'fault') {
+  } else if (['fault', 'link_lost'].includes(result.outcome)) {
     lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${result.cause}`);
   } else {
     const cause = result.cause || 'ended before its goal or failed a check';  // results of earlier versions name no cause
@@ -89,7 +89,7 @@ function statusRibbon({t, status, statuses}, t_s) {
 function fillStory(host, data, film) {
   const {result, path, has_replay} = data;
   const missed = result.outcome === 'timeout' && result.goal_distance_m !== null;
-  const failed = missed || ['collided', 'fault'].includes(result.outcome) || result.checks.some((check) => !check.passed);
+  const failed = missed || ['collided', 'fault', 'link_lost'].includes(result.outcome) || result.checks.some((check) => !check.passed);
   if (!failed || !path.t.length) {
     host.remove();
     return;

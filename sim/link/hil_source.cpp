@@ -1,0 +1,108 @@
+#include "sim/link/hil_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <string_view>
+#include <system_error>
+
+#include "sim/config/input_error.h"
+
+namespace hedgehop::sim::link {
+namespace {
+
+using HilClock = std::chrono::steady_clock;
+
+uint32_t bind_host(const std::string& text) {
+  const std::optional<uint32_t> host = parse_host(text);
+  if (!host) throw InputError(fmt::format("--bind: '{}' is no numeric IPv4 address such as 127.0.0.1", text));
+  return *host;
+}
+
+/// Opens a socket on a port. Throws InputError with the key and the first port of all instances if it is in use.
+template <class Socket>
+Socket opened(const char* key, uint32_t host, int64_t port, int64_t first_port) {
+  try {
+    return Socket(Address{host, static_cast<uint16_t>(port)});
+  } catch (const std::system_error& error) {
+    if (error.code().value() == EADDRINUSE) {
+      throw InputError(fmt::format("link.{}: {} is in use (instance N uses {} + N)", key, port, first_port));
+    }
+    throw InputError(fmt::format("link.{}: {} cannot be opened: {}", key, port, error.code().message()));
+  }
+}
+
+}  // namespace
+
+HilSockets::HilSockets(const Px4LinkConfig& config, const std::string& bind)
+    : config_(config),
+      host_(bind_host(bind)),
+      server_(opened<StreamServer>("port", host_, config.tcp_port(), config.port)),
+      datagrams_(opened<DatagramSocket>("offboard_port", host_, config.own_udp_port(), config.offboard_port)) {}
+
+double HilSockets::now_s() const { return std::chrono::duration<double>(HilClock::now().time_since_epoch()).count(); }
+
+/// Waits until something happens on the stream. @return false at the deadline or at the end of the autopilot's process.
+bool HilSockets::wait(double deadline_s) {
+  const double begin_s = now_s();
+  if (begin_s >= deadline_s || (process_ && process_->ended())) return false;
+  wait_readable(std::array{server_.descriptor(), process_ ? process_->descriptor() : -1}, deadline_s - begin_s);
+  waited_s_ += now_s() - begin_s;
+  return true;
+}
+
+bool HilSockets::connect(double deadline_s) {
+  while (!server_.accept()) {
+    if (!wait(deadline_s)) return false;
+  }
+  has_peer_ = true;
+  return true;
+}
+
+std::optional<HilSource::Chunk> HilSockets::message(int64_t /*step*/) {
+  while (const auto datagram = datagrams_.receive()) {
+    const bool is_autopilot = has_peer_ && datagram->from.host == server_.peer().host &&
+                              datagram->from.port == static_cast<uint16_t>(config_.autopilot_udp_port());
+    if (is_autopilot) return Chunk{true, datagram->bytes};
+    ++strangers_;
+  }
+  return std::nullopt;
+}
+
+std::optional<HilSource::Chunk> HilSockets::stream(int64_t /*step*/, double deadline_s) {
+  if (ended_) return std::nullopt;
+  do {
+    bytes_.clear();
+    server_.receive(bytes_);
+    ended_ = bytes_.empty() && !server_.connected();
+    if (ended_ || !bytes_.empty()) return Chunk{false, bytes_};
+  } while (wait(deadline_s));
+  return std::nullopt;
+}
+
+void HilSockets::send_message(std::span<const uint8_t> bytes) {
+  if (bytes.empty() || !has_peer_) return;
+  datagrams_.send({server_.peer().host, static_cast<uint16_t>(config_.autopilot_udp_port())},
+                  {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string HilSockets::absence() const {
+  if (process_ && process_->ended()) {
+    return fmt::format("the autopilot ended before its connection: {}; its output: {}", process_->end_words(),
+                       process_->log().string());
+  }
+  return fmt::format("no autopilot within {:g} s; start: make px4_sitl none_iris", config_.first_packet_s);
+}
+
+std::optional<HilSource::Chunk> HilReplay::recorded(int64_t step, bool is_message) {
+  const RecordedPacket* const packet = reader_.peek();
+  if (!packet || packet->is_serial != is_message || packet->step != step) return std::nullopt;
+  current_ = *packet;
+  reader_.take();
+  return Chunk{is_message, current_.bytes};
+}
+
+}  // namespace hedgehop::sim::link

@@ -1,0 +1,103 @@
+#include "sim/link/packet_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "sim/config/input_error.h"
+
+namespace hedgehop::sim::link {
+namespace {
+
+using LinkClock = std::chrono::steady_clock;
+
+constexpr double kConnectEachS = 0.1;  // an autopilot opens its serial line a moment after its start
+
+uint32_t host_of(const std::string& text, const char* what) {
+  const std::optional<uint32_t> host = parse_host(text);
+  if (!host) throw InputError(fmt::format("{}: '{}' is no numeric IPv4 address such as 127.0.0.1", what, text));
+  return *host;
+}
+
+DatagramSocket bound(const ArduPilotLinkConfig& config, const std::string& bind) {
+  const Address local{host_of(bind, "--bind"), static_cast<uint16_t>(config.udp_port())};
+  try {
+    return DatagramSocket(local);
+  } catch (const std::system_error& error) {
+    if (error.code().value() == EADDRINUSE) {
+      throw InputError(
+          fmt::format("link.port: {} is in use (instance N uses {} + 10 N)", config.udp_port(), config.port));
+    }
+    throw InputError(
+        fmt::format("link.port: {} of {} cannot be opened: {}", config.udp_port(), bind, error.code().message()));
+  }
+}
+
+}  // namespace
+
+SocketSource::SocketSource(const ArduPilotLinkConfig& config, const std::string& bind)
+    : config_(config),
+      datagrams_(bound(config, bind)),
+      has_serial_(config.tcp_port() != 0),
+      serial_({host_of(config.host, "link.host"), static_cast<uint16_t>(config.tcp_port())}) {}
+
+double SocketSource::now_s() const {
+  return std::chrono::duration<double>(LinkClock::now().time_since_epoch()).count();
+}
+
+std::optional<PacketSource::Packet> SocketSource::arrived(int64_t /*step*/) {
+  while (const auto datagram = datagrams_.receive()) {
+    if (!peer_) peer_ = datagram->from;
+    if (datagram->from == *peer_) return Packet{false, datagram->bytes};
+    ++strangers_;
+    return std::nullopt;  // to the caller's deadline
+  }
+  if (!serial_.connected()) return std::nullopt;
+  serial_bytes_.clear();
+  serial_.receive(serial_bytes_);
+  if (serial_bytes_.empty()) return std::nullopt;
+  return Packet{true, serial_bytes_};
+}
+
+std::variant<PacketSource::Packet, PacketSource::Absence> SocketSource::next(int64_t step, double deadline_s) {
+  for (;;) {
+    if (const std::optional<Packet> packet = arrived(step)) return *packet;
+    const double now = now_s();
+    if (now >= deadline_s || (process_ && process_->ended())) return absence();
+    const bool connecting = has_serial_ && !peer_ && !serial_.connect();
+    wait_readable(std::array{datagrams_.descriptor(), serial_.descriptor(), process_ ? process_->descriptor() : -1},
+                  connecting ? std::min(kConnectEachS, deadline_s - now) : deadline_s - now);
+    waited_s_ += now_s() - now;
+  }
+}
+
+PacketSource::Absence SocketSource::absence() const {
+  if (process_ && process_->ended()) {
+    return {fmt::format("the autopilot ended{}: {}; its output: {}", peer_ ? "" : " before its first packet",
+                        process_->end_words(), process_->log().string())};
+  }
+  if (peer_) return {fmt::format("nothing received for {:g} s", config_.silence_s)};
+  return {fmt::format("no autopilot within {:g} s; start: arducopter --model JSON:127.0.0.1{}", config_.first_packet_s,
+                      config_.instance == 0 ? "" : fmt::format(" -I {}", config_.instance))};
+}
+
+std::optional<PacketSource::Packet> ReplaySource::arrived(int64_t step) {
+  const RecordedPacket* const packet = reader_.peek();
+  if (!packet || !packet->is_serial || packet->step > step) return std::nullopt;
+  current_ = *packet;
+  reader_.take();
+  return Packet{true, current_.bytes};
+}
+
+std::variant<PacketSource::Packet, PacketSource::Absence> ReplaySource::next(int64_t /*step*/, double /*deadline_s*/) {
+  const RecordedPacket* const packet = reader_.peek();
+  if (!packet) return Absence{"the recording ends"};
+  current_ = *packet;
+  reader_.take();
+  return Packet{current_.is_serial, current_.bytes};
+}
+
+}  // namespace hedgehop::sim::link

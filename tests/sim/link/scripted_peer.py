@@ -1,0 +1,138 @@
+"""A scripted autopilot for tests: speaks ArduPilot's JSON physics protocol over UDP, in lockstep.
+
+It is written from the protocol and from the table of ArduPilot's frames, independently of sim/link. As a program, it replaces
+`arducopter` in the tests: scripted_peer.py --model JSON:127.0.0.1 -I INSTANCE [--port PORT] [--climb M] [--steps N]
+[--defaults FILE.parm]. It lets the multicopter of the parameter file climb, and holds it with a PD law of its own.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import socket
+import struct
+import sys
+
+GRAVITY = 9.81
+BOOT_STEPS = 200  # steps without pulses, then as many at rest
+
+# Azimuth from the nose, clockwise from above, deg; +1 for a propeller that turns clockwise from above.
+FRAMES = {
+    "quad_plus": [(90, -1), (-90, -1), (0, 1), (180, 1)],
+    "hexa_x": [(90, 1), (-90, -1), (-30, 1), (150, -1), (30, -1), (-150, 1)],
+}
+# mass kg, inertia kg m2, arm m, thrust N s2, torque per thrust m, maximum speed rad/s, cosine of the rotors' tilt
+VEHICLES = {
+    "hummingbird": ("quad_plus", 0.716, (0.007, 0.007, 0.012), 0.17, 8.54858e-6, 0.016, 838.0, 1.0),
+    "s900_mirrored": ("hexa_x", 4.606, (0.25665, 0.25024, 0.36309), 0.45, 6.54e-5, 0.024, 612.0, math.cos(math.radians(8))),
+}
+
+
+def clamp(value, low, high):
+    return max(low, min(high, value))
+
+
+class HoverLaw:
+    """Pulses that hold a multicopter at a position and heading, from the state of the reply."""
+
+    def __init__(self, vehicle, climb_m=0.0):
+        frame, self.mass, self.inertia, self.arm, self.thrust, self.torque, self.highest, self.upright = VEHICLES[vehicle]
+        self.motors = FRAMES[frame]
+        self.climb_m = climb_m
+        self.hold = None
+
+    def pulses(self, state):
+        n, e, d = state["position"]
+        if self.hold is None:
+            self.hold = (n, e, d - self.climb_m, state["attitude"][2])
+        n0, e0, d0, yaw0 = self.hold
+        vn, ve, vd = state["velocity"]
+        roll, pitch, yaw = state["attitude"]
+        p, q, r = state["imu"]["gyro"]
+        forward = clamp(-1.0 * (n - n0) - 1.8 * vn, -2, 2)
+        east = clamp(-1.0 * (e - e0) - 1.8 * ve, -2, 2)
+        ahead = forward * math.cos(yaw) + east * math.sin(yaw)
+        right = -forward * math.sin(yaw) + east * math.cos(yaw)
+        down = clamp(-2.0 * clamp(d - d0, -1, 1) - 2.5 * vd, -3, 3)
+        if state["velocity"] == [0, 0, 0]:
+            down -= 1.0  # on the stand, the thrust must exceed the weight
+        total = self.mass * (GRAVITY - down) / max(0.5, math.cos(roll) * math.cos(pitch)) / self.upright
+        turn = math.remainder(yaw0 - yaw, 2 * math.pi)
+        roll_torque = self.inertia[0] * (60 * (right / GRAVITY - roll) - 14 * p)
+        pitch_torque = self.inertia[1] * (60 * (-ahead / GRAVITY - pitch) - 14 * q)
+        yaw_torque = self.inertia[2] * (4 * clamp(turn, -0.5, 0.5) - 3 * r)
+        count = len(self.motors)
+        pulses = []
+        for azimuth, clockwise in self.motors:
+            a = math.radians(azimuth)
+            lift = (total + 2 / self.arm * (pitch_torque * math.cos(a) - roll_torque * math.sin(a))
+                    - clockwise * yaw_torque / self.torque) / count
+            share = math.sqrt(max(0.0, lift) / self.thrust) / self.highest
+            pulses.append(round(1000 + 1000 * clamp(share, 0, 1)))
+        return pulses + [0] * (16 - count)
+
+
+class Peer:
+    """One socket of an autopilot. `count` is the number of the next packet."""
+
+    def __init__(self, port, rate=1200):
+        self.address = ("127.0.0.1", port)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.settimeout(60)
+        self.rate = rate
+        self.count = 0
+        self.texts = []
+
+    def close(self):
+        self.socket.close()
+
+    def packet(self, pulses, count=None, magic=18458):
+        return struct.pack(f"<HHI{len(pulses)}H", magic, self.rate, self.count if count is None else count, *pulses)
+
+    def send(self, data):
+        self.socket.sendto(data, self.address)
+
+    def receive(self):
+        """The state of the next reply; the text lies between its last two newlines."""
+        text = self.socket.recv(65536).decode("ascii")
+        self.texts = [text]
+        assert text[0] == "\n" and text[-1] == "\n" and text.count("\n") == 2, text
+        return json.loads(text[1:-1])
+
+    def step(self, pulses):
+        """One step in lockstep: servos, then the state after them."""
+        self.send(self.packet(pulses))
+        state = self.receive()
+        self.count += 1
+        return state
+
+
+def fly(peer, law, steps):
+    """Boots, then flies until the simulator ends the flight or the steps are over. Returns the last state."""
+    state = None
+    try:
+        for k in range(steps):
+            pulses = [0] * 16 if k < BOOT_STEPS else [1000] * 16 if k < 2 * BOOT_STEPS else law.pulses(state)
+            state = peer.step(pulses)
+    except (ConnectionError, socket.timeout):
+        pass  # the flight is over
+    return state
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--model")
+    parser.add_argument("-I", dest="instance", type=int, default=0)
+    parser.add_argument("--port", type=int)
+    parser.add_argument("--defaults", default="quad_plus.parm")
+    parser.add_argument("--climb", type=float, help="m; default: to the start of the scenario of the parameter file")
+    parser.add_argument("--steps", type=int, default=10**9)
+    options, _ = parser.parse_known_args()
+    peer = Peer(options.port or 9002 + 10 * options.instance)
+    vehicle, climb_m = {"quad_plus": ("hummingbird", 2.7), "hexa_x": ("s900_mirrored", 4.5)}[pathlib.Path(options.defaults).stem]
+    fly(peer, HoverLaw(vehicle, climb_m if options.climb is None else options.climb), options.steps)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
