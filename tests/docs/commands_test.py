@@ -135,9 +135,10 @@ class Commands(unittest.TestCase):
         (folder / "out").mkdir()
         # A scripted peer flies instead of ArduPilot.
         (folder / "bin").mkdir()
-        autopilot = folder / "bin" / "arducopter"
-        autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/scripted_peer.py" "$@"\n')
-        autopilot.chmod(0o755)
+        for name in ("arducopter", "arducopter-heli"):
+            autopilot = folder / "bin" / name
+            autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/scripted_peer.py" "$@"\n')
+            autopilot.chmod(0o755)
         cls.environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{folder}/bin:{os.environ['PATH']}"}
 
     @classmethod
