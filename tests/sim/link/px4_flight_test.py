@@ -98,7 +98,7 @@ class Px4Flight(unittest.TestCase):
         self.assertEqual(link["unanswered"] + link["repeated"] + link["malformed"] + link["strangers"], 0)
         self.assertEqual(px4.commands.count(400), 1)
         self.assertEqual(px4.times_us, list(range(4000, 4000 * (len(px4.times_us) + 1), 4000)))
-        # One answer per state, except for those of the boot. At the pace of the wall, the first answers may be late.
+        # One answer per state, except for those of the boot. At the pace of the wall, the first answers may come after the next state.
         self.assertEqual(link["frames"] + link["old"], px4.states - px4_peer.BOOT_STATES)
         seconds = px4.states / 250
         self.assertEqual(px4.updated[0x3F], px4.states)
