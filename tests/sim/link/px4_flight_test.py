@@ -95,11 +95,11 @@ class Px4Flight(unittest.TestCase):
         self.assertEqual(result["outcome"], "reached")
         link = result["link"]
         self.assertEqual(link["kind"], "px4")
-        self.assertEqual(link["unanswered"] + link["old"] + link["repeated"] + link["malformed"] + link["strangers"], 0)
+        self.assertEqual(link["unanswered"] + link["repeated"] + link["malformed"] + link["strangers"], 0)
         self.assertEqual(px4.commands.count(400), 1)
         self.assertEqual(px4.times_us, list(range(4000, 4000 * (len(px4.times_us) + 1), 4000)))
-        # One answer per state, except for those of the boot.
-        self.assertEqual(link["frames"], px4.states - px4_peer.BOOT_STATES)
+        # One answer per state, except for those of the boot. At the pace of the wall, the first answers may come after the next state.
+        self.assertEqual(link["frames"] + link["old"], px4.states - px4_peer.BOOT_STATES)
         seconds = px4.states / 250
         self.assertEqual(px4.updated[0x3F], px4.states)
         self.assertAlmostEqual(px4.updated[0x1C0] / seconds, 100, delta=1)
