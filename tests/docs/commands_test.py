@@ -135,7 +135,7 @@ class Commands(unittest.TestCase):
         (folder / "out").mkdir()
         # Scripted peers fly instead of ArduPilot and PX4.
         (folder / "bin").mkdir()
-        for name, peer in (("arducopter", "scripted_peer.py"), ("px4", "px4_peer.py")):
+        for name, peer in (("arducopter", "scripted_peer.py"), ("arducopter-heli", "scripted_peer.py"), ("px4", "px4_peer.py")):
             autopilot = folder / "bin" / name
             autopilot.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{SOURCE}/tests/sim/link/{peer}" "$@"\n')
             autopilot.chmod(0o755)

@@ -1,6 +1,7 @@
 """Flights of the program with a scripted autopilot on real sockets: linked_flight_test.py HEDGEHOP SOURCE_FOLDER."""
 
 import json
+import os
 import pathlib
 import socket
 import struct
@@ -228,6 +229,24 @@ class LinkedFlight(unittest.TestCase):
         running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
         self.assertNotIn(f"--port {self.port}", running)
         self.assertNotIn(f"--port {self.port + 10}", running)
+
+    def test_the_shipped_scenarios_fly(self):
+        programs = self.folder / "bin"
+        programs.mkdir()
+        for name in ("arducopter", "arducopter-heli"):
+            (programs / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" "{PEER}" --port {self.port} "$@"\n')
+            (programs / name).chmod(0o755)
+        for scenario, pulses in (("hover_quad", 4), ("hover_hexa", 6), ("hover_helicopter", 8)):
+            done = subprocess.run([HEDGEHOP, "run", SOURCE / f"configs/links/{scenario}.yaml", "--no-report", "--no-video", "--renderer",
+                                   "tiles", "--set", "duration=1", "--set", f"link.port={self.port}", "--set", "link.serial_port=0",
+                                   "--set", "film.enabled=false", "--out", self.folder / scenario], capture_output=True, text=True,
+                                  check=False, timeout=200, env={**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"})
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            result = self.result(scenario)
+            self.assertEqual(result["outcome"], "timeout")
+            self.assertGreater(result["link"]["start_tick"], 500)
+            packet = (self.folder / scenario / "link.bin").read_bytes()[-40:]
+            self.assertTrue(all(800 <= pulse <= 2200 for pulse in struct.unpack("<8x16H", packet)[:pulses]), scenario)
 
     def test_an_autopilot_that_ends_at_once_is_reported(self):
         done = self.run_hedgehop("--set", f"link.command=[{sys.executable}, -c, 'raise SystemExit(3)']")

@@ -72,6 +72,45 @@ class HoverLaw:
         return pulses + [0] * (16 - count)
 
 
+class HelicopterLaw:
+    """Pulses that hold the X-Cell .60 of configs/links/hover_helicopter.yaml, for a swashplate H3-120."""
+
+    HOVER_DEG, TAIL_DEG, ROLL_RAD = 5.48, 11.2, 0.0784  # collective, tail and bank of the hover
+    LOW_DEG, HIGH_DEG, CYCLIC_DEG, TAIL_STOP_DEG = -2.0, 12.0, 8.0, 20.0
+    CYCLIC_LIMIT = 2500 / 4500  # roll or pitch at the cyclic stop
+    FACTORS = [(0.866025, 0.5), (-0.866025, 0.5), (0, -1)]  # of roll and pitch, per servo
+
+    def __init__(self, climb_m=0.0):
+        self.climb_m = climb_m
+        self.hold = None
+
+    def pulses(self, state):
+        n, e, d = state["position"]
+        if self.hold is None:
+            self.hold = (n, e, d - self.climb_m, state["attitude"][2])
+        n0, e0, d0, yaw0 = self.hold
+        vn, ve, vd = state["velocity"]
+        roll, pitch, yaw = state["attitude"]
+        p, q, r = state["imu"]["gyro"]
+        north = clamp(-0.2 * (n - n0) - 0.6 * vn, -1, 1)
+        east = clamp(-0.2 * (e - e0) - 0.6 * ve, -1, 1)
+        ahead = north * math.cos(yaw) + east * math.sin(yaw)
+        right = -north * math.sin(yaw) + east * math.cos(yaw)
+        lateral = clamp(math.degrees(0.1 * (self.ROLL_RAD + right / GRAVITY - roll) - 0.005 * p), -6, 6)
+        longitudinal = clamp(math.degrees(0.1 * (-ahead / GRAVITY - pitch) - 0.005 * q), -6, 6)
+        collective = self.HOVER_DEG + clamp(1.0 * clamp(d - d0, -1, 1) + 1.2 * vd, -2, 2)
+        tail = clamp(self.TAIL_DEG + 10 * math.remainder(yaw0 - yaw, 2 * math.pi) - 6 * r, -15, 18)
+        col = 0.25 + 0.5 * (collective - self.LOW_DEG) / (self.HIGH_DEG - self.LOW_DEG)
+        turn = (tail - self.TAIL_DEG) / (self.TAIL_STOP_DEG + (-self.TAIL_DEG if tail >= self.TAIL_DEG else self.TAIL_DEG))
+        pulses = [1000] * 8
+        for servo, (of_roll, of_pitch) in enumerate(self.FACTORS):
+            share = 0.45 * self.CYCLIC_LIMIT / self.CYCLIC_DEG * (of_roll * lateral + of_pitch * longitudinal) + col
+            pulses[servo] = round(1000 * (share + 1))
+        pulses[3] = round(1500 + 400 * turn)
+        pulses[7] = 1700
+        return pulses + [0] * 8
+
+
 class Peer:
     """One socket of an autopilot. `count` is the number of the next packet."""
 
@@ -129,8 +168,10 @@ def main():
     parser.add_argument("--steps", type=int, default=10**9)
     options, _ = parser.parse_known_args()
     peer = Peer(options.port or 9002 + 10 * options.instance)
-    vehicle, climb_m = {"quad_plus": ("hummingbird", 2.7), "hexa_x": ("s900_mirrored", 4.5)}[pathlib.Path(options.defaults).stem]
-    fly(peer, HoverLaw(vehicle, climb_m if options.climb is None else options.climb), options.steps)
+    name = pathlib.Path(options.defaults).stem
+    climb_m = {"quad_plus": 2.7, "hexa_x": 4.5, "helicopter": 3.5}[name] if options.climb is None else options.climb
+    law = HelicopterLaw(climb_m) if name == "helicopter" else HoverLaw({"quad_plus": "hummingbird", "hexa_x": "s900_mirrored"}[name], climb_m)
+    fly(peer, law, options.steps)
     return 0
 
 
