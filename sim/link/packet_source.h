@@ -76,6 +76,7 @@ class SocketSource : public PacketSource {
   std::optional<Address> peer_;
   std::unique_ptr<ChildProcess> process_;
   int64_t strangers_ = 0;
+  double tried_s_ = 0.0;  ///< wall time of the last attempt to connect the serial line
   double waited_s_ = 0.0;
 };
 
