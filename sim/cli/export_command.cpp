@@ -63,7 +63,7 @@ int export_run(const ExportOptions& options) {
   const Flight flight = export_flight(
       scenario, request,
       [&](double t_s, double duration_s, double goal_distance_m) { progress.show(t_s, duration_s, goal_distance_m); },
-      options.folder);
+      is_run ? options.source : std::filesystem::path());
   progress.close();
   if (is_run && flight.result.trajectory_hash != hash) {
     notice(
