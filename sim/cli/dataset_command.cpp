@@ -10,8 +10,8 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
-#include "sim/config/input_error.h"
 #include "sim/config/folder_lock.h"
+#include "sim/config/input_error.h"
 #include "sim/dataset/dataset.h"
 #include "sim/fields/bounds.h"
 

@@ -65,9 +65,9 @@ std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
     success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
                                     : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
   }
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", markdown_cell(g.group), g.flights, success,
-                     g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing, hundredths(g.min_clearance_m),
-                     hundredths(g.median_clearance_m), g.median_time_s);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", markdown_cell(g.group),
+                     g.flights, success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing,
+                     hundredths(g.min_clearance_m), hundredths(g.median_clearance_m), g.median_time_s);
 }
 
 }  // namespace

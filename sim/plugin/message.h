@@ -106,7 +106,7 @@ class MessageWriter {
   std::string bytes_;
 };
 
-/// Reads what MessageWriter wrote. Throws std::runtime_error if the bytes end early or a length is impossible.
+/// Reads the bytes of a MessageWriter. Throws std::runtime_error if the bytes end early or a length is impossible.
 class MessageReader {
  public:
   explicit MessageReader(std::string_view bytes) : bytes_(bytes) {}

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// The module's working folder. Removed at the end if it is temporary, or if nothing was written there.
+/// The module's working folder. Removed at the end if it is temporary or empty.
 class ModuleFolder {
  public:
   explicit ModuleFolder(const fs::path& folder) : folder_(folder), is_temporary_(folder.empty()) {

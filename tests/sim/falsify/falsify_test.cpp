@@ -129,7 +129,7 @@ TEST_F(Falsify, FlightsThatAreNotFlownLeaveTheSearchUndecided) {
   EXPECT_THAT(end.out, HasSubstr("1 of 6 flights were not flown"));
   EXPECT_THAT(end.out, HasSubstr("no failure in 5 flights"));
   EXPECT_EQ(folder.json("some/falsify.json")["flights_not_flown"], 1);
-  // A limit that stops every flight confirms nothing.
+  // Flights without results confirm no failure.
   const std::string dead = folder.worker("kill -KILL $$");
   const CommandEnd none = folder.hedgehop("falsify search.yaml --set design.budget=4 --out none --program " + dead);
   EXPECT_EQ(none.status, 4) << none.out;

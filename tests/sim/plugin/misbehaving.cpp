@@ -53,8 +53,8 @@ void describe(Visitor& v, MisbehavingConfig& c) {
     {.choices = {"behave", "raise_exception", "segfault", "abort", "recurse", "hang", "not_finite", "refuse", "exit",
                  "end_at_once", "end_quickly", "end_thread", "throw_int", "change_folder", "fork", "print",
                  "close_files", "stop"},
-     .meaning = "which way"});
-  v("where", c.where,
+     .meaning = "kind of failure"});
+  v("place", c.where,
     {.choices = {"update", "make", "needs", "signals", "reset", "metrics", "map", "annotate", "end"},
      .meaning = "in which call"});
   v("at", c.at, {.at_least = 1, .meaning = "which decision"});

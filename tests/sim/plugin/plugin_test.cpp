@@ -88,7 +88,7 @@ TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsTheFlownPart) {
   }
 }
 
-/// Whatever a module does in any of its calls, the flight ends in a verdict, and nothing leaks out of its process.
+/// Whatever a module does in any of its calls, the flight ends in a verdict.
 TEST_F(Plugin, NoCallOfAModuleCanPreventTheVerdict) {
   struct Case {
     std::string how, where;
@@ -102,7 +102,7 @@ TEST_F(Plugin, NoCallOfAModuleCanPreventTheVerdict) {
   }
   for (const auto& [how, where] : cases) {
     std::filesystem::remove_all(folder.path() / "out");
-    const CommandEnd end = run("how: " + how + ", where: " + where);
+    const CommandEnd end = run("how: " + how + ", place: " + where);
     const bool before_flight = where == "make" || where == "needs" || where == "signals" || where == "reset";
     const bool in_flight = where == "update" || where == "map" || where == "metrics";
     EXPECT_EQ(end.status, before_flight ? 2 : in_flight ? 1 : 0) << how << " in " << where << ": " << end.err;
@@ -117,7 +117,7 @@ TEST_F(Plugin, NoCallOfAModuleCanPreventTheVerdict) {
 
 TEST_F(Plugin, FilmsDoNotChangeAFlightWhoseAnnotationFails) {
   for (const std::string how : {"raise_exception", "throw_int"}) {
-    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: " + how + ", where: annotate}");
+    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: " + how + ", place: annotate}");
     ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --out film").status, 0);
     ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --no-video --out none").status, 0);
     EXPECT_EQ(folder.json("film/result.json")["trajectory_hash"], folder.json("none/result.json")["trajectory_hash"]);
