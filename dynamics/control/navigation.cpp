@@ -15,7 +15,11 @@ namespace {
 constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17, kBarometer = 18;
 
 constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: hover at the start
-constexpr double kMinSigma = 1e-8;        // of a reading or a noise density in SI units, assumed of exact sensors
+// Least errors that the filter assumes, chosen below those of real sensors: with exact ones, the errors of its own
+// integration remain, such as those of the IMU's low-pass filter.
+constexpr double kMinGyroDensity = 1e-5;           // rad/s/sqrt(Hz)
+constexpr double kMinAccelerometerDensity = 1e-4;  // m/s^2/sqrt(Hz)
+constexpr double kMinHeadingRad = 1e-4, kMinPositionM = 1e-3, kMinVelocityMps = 1e-3, kMinPressurePa = 0.05;
 constexpr double kIllConditioned = 1e-6;  // variance of a reading over that of its innovation
 constexpr double kGate = 9.0;             // squared ratio of innovation to sigma above which the weight falls
 constexpr int kJumpReadings = 3;          // agreeing readings required to accept another surface
@@ -28,8 +32,8 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return m;
 }
 
-/// Variance of a noise, with the floor that keeps the covariance positive with exact sensors.
-double floored_variance(double sigma) { return square(std::max(sigma, kMinSigma)); }
+/// Returns the variance of an error that is at least `min_sigma`.
+double variance_of(double sigma, double min_sigma) { return square(std::max(sigma, min_sigma)); }
 
 Eigen::Quaterniond rotation(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.stableNormalized()));
@@ -130,8 +134,9 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
     P_.row(kBarometer) *= barometer_decay;
     P_.transposeInPlace();
   }
-  P_.diagonal().segment<3>(kTheta).array() += floored_variance(imu.gyro_noise_density) * dt_s_;
-  P_.diagonal().segment<3>(kV).array() += floored_variance(imu.accelerometer_noise_density) * dt_s_;
+  P_.diagonal().segment<3>(kTheta).array() += variance_of(imu.gyro_noise_density, kMinGyroDensity) * dt_s_;
+  P_.diagonal().segment<3>(kV).array() +=
+      variance_of(imu.accelerometer_noise_density, kMinAccelerometerDensity) * dt_s_;
   P_.diagonal().segment<2>(kP).array() += square(config_.drift_mps_rt_hz) * dt_s_;
   P_.diagonal().segment<3>(kGyro).array() += square(sensors::gyro_wander(imu).added_sigma(dt_s_));
   P_.diagonal().segment<3>(kAccelerometer).array() += square(sensors::accelerometer_wander(imu).added_sigma(dt_s_));
@@ -143,16 +148,15 @@ void Navigation::propagate_errors(const Eigen::Matrix3d& R_WB, const Eigen::Vect
 /// A reading far more exact than its prediction is applied in Joseph's form, [Sola2017] sec. 6.1, which keeps the
 /// covariance positive. Otherwise the short form is equal within rounding.
 void Navigation::correct(const Row& H, double innovation, double variance) {
-  const double R = std::max(variance, square(kMinSigma));
   const Column PH = P_ * H.transpose();
-  const double S = std::max(H.dot(PH), 0.0) + R;
+  const double S = std::max(H.dot(PH), 0.0) + variance;
   const Column K = PH / S;
   correction_ += K * (innovation - H.dot(correction_));
   P_.noalias() -= K * PH.transpose();
-  if (R > kIllConditioned * S) return;
-  // P - K H P so far; times (I - K H)', plus K R K'.
+  if (variance > kIllConditioned * S) return;
+  // P - K H P so far; times (I - K H)', plus K variance K'.
   const Column rest = P_ * H.transpose();
-  P_ += (R * K - rest) * K.transpose();
+  P_ += (variance * K - rest) * K.transpose();
   P_ = (0.5 * (P_ + P_.transpose())).eval();
 }
 
@@ -200,18 +204,19 @@ void Navigation::correct_gps(const sensors::GpsFix& fix) {
   for (int i = 0; i < 2; ++i) {
     Row H = Row::Zero();
     H[kP + i] = H[kWander + i] = 1.0;
-    correct(H, fix.p_WB_W_meas[i] - then.p_WB[i] - gps_wander_m_[i], square(gps.noise_m));
+    correct(H, fix.p_WB_W_meas[i] - then.p_WB[i] - gps_wander_m_[i], variance_of(gps.noise_m, kMinPositionM));
   }
   // The wandering altitude error is not a state. White noise of the same density at low frequency gives it the correct
   // weight.
   const double white = 2.0 * gps.wander_time_s * gps.rate_hz;
   Row H = Row::Zero();
   H[kP + 2] = 1.0;
-  correct(H, fix.p_WB_W_meas.z() - then.p_WB.z(), white * square(gps.wander_vertical_m) + square(gps.noise_m));
+  correct(H, fix.p_WB_W_meas.z() - then.p_WB.z(),
+          white * square(gps.wander_vertical_m) + variance_of(gps.noise_m, kMinPositionM));
   for (int i = 0; i < 3 && config_.use_gps_velocity; ++i) {
     H.setZero();
     H[kV + i] = 1.0;
-    correct(H, fix.v_WB_W_meas[i] - then.v_WB_W[i], square(gps.velocity_noise_mps));
+    correct(H, fix.v_WB_W_meas[i] - then.v_WB_W[i], variance_of(gps.velocity_noise_mps, kMinVelocityMps));
   }
   since_velocity_s_ = 0.0;
   inject();
@@ -224,7 +229,7 @@ void Navigation::correct_heading(double heading_meas_rad) {
   H[kTheta + 2] = std::cos(rpy[0]) / std::cos(rpy[1]);
   H[kCompass] = 1.0;
   const double innovation = wrap_angle(heading_meas_rad - rpy[2] - compass_offset_rad_);
-  correct(H, innovation, square(sensors_.magnetometer.noise_rad));
+  correct(H, innovation, variance_of(sensors_.magnetometer.noise_rad, kMinHeadingRad));
   inject();
 }
 
@@ -248,7 +253,8 @@ void Navigation::correct_height(double height_meas_m) {
     surface_sigma_m_ = altitude_sigma_m;
   }
   jump_count_ = 0;
-  correct_altitude(height_meas_m - (altitude_m - surface_m_), square(sigma_m) + square(surface_sigma_m_));
+  correct_altitude(height_meas_m - (altitude_m - surface_m_),
+                   variance_of(sigma_m, kMinPositionM) + square(surface_sigma_m_));
 }
 
 void Navigation::correct_altitude(double innovation_m, double variance_m2) {
@@ -266,7 +272,8 @@ void Navigation::correct_pressure(double pressure_meas_pa) {
   Row H = Row::Zero();
   H[kP + 2] = air.density_kgpm3 * kGravityMps2;
   H[kBarometer] = 1.0;
-  correct(H, pressure_meas_pa - air.pressure_pa - barometer_wander_pa_, square(sensors_.barometer.noise_pa));
+  correct(H, pressure_meas_pa - air.pressure_pa - barometer_wander_pa_,
+          variance_of(sensors_.barometer.noise_pa, kMinPressurePa));
   inject();
 }
 

@@ -15,17 +15,11 @@ using scenes::mesh::Polyhedron;
 
 /// Returns a box in single precision that contains the corners of a triangle.
 AlignedBox3f box_of(const Polyhedron& polyhedron, const std::array<uint32_t, 3>& face, const Eigen::Isometry3d& X_WS) {
-  constexpr double kRounding = 1e-15;  // of the pose, relative to the coordinates
+  constexpr double kRounding = 2e-7;  // of single precision, relative to the coordinates
   AlignedBox3d box;
   for (const uint32_t corner : face) box.extend(X_WS * polyhedron.corners[corner]);
   const Vector3d margin = kRounding * box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
-  AlignedBox3f rounded;
-  for (int axis = 0; axis < 3; ++axis) {
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    rounded.min()[axis] = std::nextafter(static_cast<float>(box.min()[axis] - margin[axis]), -kFar);
-    rounded.max()[axis] = std::nextafter(static_cast<float>(box.max()[axis] + margin[axis]), kFar);
-  }
-  return rounded;
+  return {(box.min() - margin).cast<float>(), (box.max() + margin).cast<float>()};
 }
 
 /// Searches the tree for triangles near a box, in the form that Eigen's BVMinimize() asks for.
@@ -38,7 +32,8 @@ struct NearSearch {
   double minimumOnVolume(const AlignedBox3f& volume) const {
     const double distance_m = box_W.exteriorDistance(volume.cast<double>());
     // Slightly less, so that equally near triangles are all visited.
-    return distance_m <= reach_m() ? std::nextafter(distance_m, -1.0) : kNever;
+    constexpr double kEqualM = 1e-12;
+    return distance_m <= reach_m() ? distance_m - kEqualM : kNever;
   }
   double minimumOnObject(uint32_t id) const {
     visit(id);

@@ -20,6 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns the result of a call, which is repeated if a signal interrupts it.
+int repeated(const auto& call) {
+  int result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
 /// Returns whether the path still names the open file. A holder removes its file before it unlocks it.
 bool is_still(const fs::path& file, int descriptor) {
   struct stat open = {}, named = {};
@@ -64,13 +71,14 @@ void FolderLock::make_folder() {
 
 void FolderLock::hold(const fs::path& file, bool alone) {
   for (;;) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = repeated([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
     if (descriptor < 0) {
       const int error = errno;
       release();
       throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)));
     }
-    if (::flock(descriptor, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    const int operation = (alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
+    if (repeated([&] { return ::flock(descriptor, operation); }) != 0 && errno == EWOULDBLOCK) {
       const std::string holder = holder_of(descriptor);
       ::close(descriptor);
       release();

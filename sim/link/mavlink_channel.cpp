@@ -36,12 +36,12 @@ void MavlinkChannel::prepare(const avoidance::Needs& needs, const avoidance::Set
   }
 }
 
-void MavlinkChannel::receive(const OutsideInput& /*now*/, std::span<const uint8_t> bytes) {
+void MavlinkChannel::receive(const OutsideInput& now, std::span<const uint8_t> bytes) {
   if (!bytes.empty()) companion_->receive(bytes);
+  if (now.observation) companion_->observe(t_ns(now), *now.observation);
 }
 
 void MavlinkChannel::send(const OutsideInput& now, std::vector<uint8_t>& bytes) {
-  if (now.observation) companion_->observe(t_ns(now), *now.observation);
   companion_->send(t_ns(now), now.navigation, now.command, bytes);
 }
 

@@ -54,7 +54,10 @@ std::variant<OutsideCommand, LinkEnd> Px4Link::exchange(const OutsideInput& inpu
     next_state_s_ = source_->now_s();
     return command_;
   }
-  if (input.step % sensors_.period() != 0) return command_;
+  if (input.step % sensors_.period() != 0) {
+    if (channel_) channel_->receive(input, {});  // the module's images may come between two states
+    return command_;
+  }
   if (std::optional<LinkEnd> end = exchange_messages(input)) return *std::move(end);
   if (std::optional<LinkEnd> end = send_state(input)) return *std::move(end);
   if (std::optional<LinkEnd> end = wait_for_controls(input)) return *std::move(end);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int64_t kRepeatNs = 1'000'000'000, kSetpointNs = 100'000'000;
 constexpr uint32_t kGuided = 4, kOffboard = 6;
-constexpr double kMinClimbM = 1.0;  // ArduPilot refuses to take off to the ground
+constexpr int64_t kRunUpNs = 20'000'000'000;  // H_RSC_RUNUP_TIME is 10 s by default
+constexpr double kMinClimbM = 1.0;            // ArduPilot refuses to take off to the ground
 
 /// Whether a message may be sent again; then it is.
 bool is_due(std::optional<int64_t>& sent_ns, int64_t t_ns, int64_t period_ns) {
@@ -67,24 +68,34 @@ void append_start_setpoint(int64_t t_ns, const StartPose& start, Sender target, 
 
 }  // namespace
 
-void ArduPilotStart::advance(const AutopilotState& autopilot) {
+void ArduPilotStart::advance(int64_t t_ns, const AutopilotState& autopilot) {
   const StartStep before = step_;
-  if (step_ == StartStep::take_off && !autopilot.armed()) step_ = StartStep::arm;  // it disarms if it waits too long
+  const bool is_armed_step =
+      step_ == StartStep::run_up || step_ == StartStep::take_off || (has_interlock_ && step_ == StartStep::mode);
+  if (is_armed_step && !autopilot.armed()) step_ = StartStep::arm;  // it disarms if it waits too long
   if (step_ == StartStep::heartbeat && autopilot.sender()) step_ = StartStep::filter;
-  if (step_ == StartStep::filter && filter_is_ready(autopilot.filter_flags())) step_ = StartStep::mode;
-  if (step_ == StartStep::mode && autopilot.custom_mode() == kGuided) step_ = StartStep::arm;
-  if (step_ == StartStep::arm && autopilot.armed()) step_ = StartStep::take_off;
+  if (step_ == StartStep::filter && filter_is_ready(autopilot.filter_flags())) {
+    step_ = has_interlock_ ? StartStep::arm : StartStep::mode;
+  }
+  if (step_ == StartStep::mode && autopilot.custom_mode() == kGuided) {
+    step_ = has_interlock_ ? StartStep::take_off : StartStep::arm;
+  }
+  if (step_ == StartStep::arm && autopilot.armed()) {
+    step_ = has_interlock_ ? StartStep::run_up : StartStep::take_off;
+    run_up_ns_ = t_ns;
+  }
+  if (step_ == StartStep::run_up && t_ns - *run_up_ns_ >= kRunUpNs) step_ = StartStep::mode;
   if (step_ == StartStep::take_off && autopilot.took_off()) step_ = StartStep::done;
   if (step_ != before) sent_ns_.reset();
 }
 
 void ArduPilotStart::send(int64_t t_ns, const AutopilotState& autopilot, FrameWriter& writer,
                           std::vector<uint8_t>& bytes) {
-  advance(autopilot);
+  advance(t_ns, autopilot);
   if (!autopilot.sender()) return;
   const Sender target = *autopilot.sender();
   if (has_interlock_ && step_ >= StartStep::mode && is_due(override_ns_, t_ns, kRepeatNs)) {
-    append_interlock(step_ > StartStep::arm, target, writer, bytes);
+    append_interlock(step_ != StartStep::arm, target, writer, bytes);
   }
   if (step_ == StartStep::done || !is_due(sent_ns_, t_ns, kRepeatNs)) return;
   switch (step_) {
@@ -141,6 +152,8 @@ std::string awaited(StartStep step, const AutopilotState& autopilot) {
       return "its change of mode" + text;
     case StartStep::arm:
       return "its arming" + text;
+    case StartStep::run_up:
+      return "the run-up of its rotor" + text;
     case StartStep::take_off:
       return "its take-off" + text;
     case StartStep::done:

@@ -12,8 +12,9 @@
 /// Commands that bring an autopilot from its boot to the start of the flight. Time is that of the autopilot.
 namespace hedgehop::sim::mavlink {
 
-/// The steps, in this order.
-enum class StartStep { heartbeat, filter, mode, arm, take_off, done };
+/// The steps. A helicopter arms and runs its rotor up in its boot mode, because ArduPilot keeps the rotor of a landed
+/// helicopter at idle in GUIDED.
+enum class StartStep { heartbeat, filter, mode, arm, run_up, take_off, done };
 
 /// The start of a flight.
 struct StartPose {
@@ -31,12 +32,12 @@ class ArduPilotStart {
   StartStep step() const { return step_; }
 
  private:
-  void advance(const AutopilotState& autopilot);
+  void advance(int64_t t_ns, const AutopilotState& autopilot);
 
   StartPose start_;
   bool has_interlock_;
   StartStep step_ = StartStep::heartbeat;
-  std::optional<int64_t> sent_ns_, override_ns_;
+  std::optional<int64_t> sent_ns_, override_ns_, run_up_ns_;
 };
 
 /// Starts PX4: streams the start as a position setpoint, selects OFFBOARD and arms; the setpoint then takes it there.

@@ -81,6 +81,8 @@ void isolate(const fs::path& folder, pid_t parent, bool from_main_thread, int so
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   if (::chdir(folder.c_str()) != 0) ::_exit(1);
+  // Runs before the handlers of the simulator, such as those of its renderer, which would wait for its threads.
+  ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
 }
 
 size_t bytes_per_pixel(avoidance::CameraNeed::Channel channel) {

@@ -228,19 +228,17 @@ AvionicsConfig with_sensors_of(unsigned subset, double sigma) {
 
 TEST(Navigation, EverySubsetOfExactSensorsFliesLikeANoiseOf1em8) {
   constexpr double kApartM = 1e-3;  // closed loops keep the effect of a noise of 1e-8 below this
-  for (const bool flow : {true, false}) {
-    for (unsigned subset = 1; subset < 32; ++subset) {
-      Loop exact, noisy;
-      exact.vehicle = noisy.vehicle = multicopter::MulticopterConfig();
-      exact.avionics = with_sensors_of(subset, 0.0);
-      noisy.avionics = with_sensors_of(subset, 1e-8);
-      exact.flow_sigma = noisy.flow_sigma = flow ? 0.1 : 0.0;
-      const auto by_exact = flights(exact, 10, 14.0, square), by_noisy = flights(noisy, 10, 14.0, square);
-      for (size_t seed = 0; seed < by_exact.size(); ++seed) {
-        const Sample &a = by_exact[seed].back(), &b = by_noisy[seed].back();
-        EXPECT_LT((a.body.p_WB - b.body.p_WB).norm(), kApartM) << "subset " << subset << " seed " << seed;
-        EXPECT_NEAR(a.body.p_WB.z(), -10.0, 3.0) << "subset " << subset << " seed " << seed;
-      }
+  for (unsigned subset = 1; subset < 32; ++subset) {
+    Loop exact, noisy;
+    exact.vehicle = noisy.vehicle = multicopter::MulticopterConfig();
+    exact.avionics = with_sensors_of(subset, 0.0);
+    noisy.avionics = with_sensors_of(subset, 1e-8);
+    exact.flow_sigma = noisy.flow_sigma = subset % 2 == 0 ? 0.1 : 0.0;
+    const auto by_exact = flights(exact, 10, 8.0, square), by_noisy = flights(noisy, 10, 8.0, square);
+    for (size_t seed = 0; seed < by_exact.size(); ++seed) {
+      const Sample &a = by_exact[seed].back(), &b = by_noisy[seed].back();
+      EXPECT_LT((a.body.p_WB - b.body.p_WB).norm(), kApartM) << "subset " << subset << " seed " << seed;
+      EXPECT_NEAR(a.body.p_WB.z(), -10.0, 3.0) << "subset " << subset << " seed " << seed;
     }
   }
 }

@@ -189,13 +189,13 @@ class LinkedFlight(unittest.TestCase):
     def test_silence_and_a_port_in_use_are_refused_before_the_flight(self):
         done = self.run_hedgehop("--set", "link.wait=0.1")
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "hedgehop: link: no autopilot within 0.1 s; start: arducopter --model JSON:127.0.0.1\n")
+        self.assertEqual(done.stderr, "link: no autopilot within 0.1 s; start: arducopter --model JSON:127.0.0.1\n")
         self.assertFalse((self.folder / "run" / "result.json").exists())
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", self.port))
             done = self.run_hedgehop()
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, f"hedgehop: link.port: {self.port} is in use (instance N uses {self.port} + 10 N)\n")
+        self.assertEqual(done.stderr, f"link.port: {self.port} is in use (instance N uses {self.port} + 10 N)\n")
         done = self.run_hedgehop("--replay-link", self.folder / "absent.bin")
         self.assertEqual(done.returncode, 2)
         done = self.run_hedgehop("--bind", "localhost")
@@ -205,7 +205,7 @@ class LinkedFlight(unittest.TestCase):
     def test_a_wrong_packet_before_the_flight_is_refused(self):
         done = self.fly(lambda peer: peer.send(struct.pack("<H26x", 1234)))
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "hedgehop: link: 28 bytes with magic 1234; expected 40 with 18458 or 72 with 29569: is the "
+        self.assertEqual(done.stderr, "link: 28 bytes with magic 1234; expected 40 with 18458 or 72 with 29569: is the "
                                       "autopilot's model JSON?\n")
 
     def test_motors_and_rates_that_do_not_fit_are_refused(self):
@@ -223,7 +223,7 @@ class LinkedFlight(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         hashes = set()
         for seed in range(1, 5):
-            result = json.loads(next(self.folder.glob(f"batch/*seed{seed}/result.json")).read_text())
+            result = json.loads(next(self.folder.glob(f"batch/*/seed{seed}/result.json")).read_text())
             self.assertEqual(result["outcome"], "timeout")
             hashes.add(result["trajectory_hash"])
         running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
@@ -251,11 +251,11 @@ class LinkedFlight(unittest.TestCase):
     def test_an_autopilot_that_ends_at_once_is_reported(self):
         done = self.run_hedgehop("--set", f"link.command=[{sys.executable}, -c, 'raise SystemExit(3)']")
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "hedgehop: link: the autopilot ended before its first packet: exit status 3; its output: "
+        self.assertEqual(done.stderr, "link: the autopilot ended before its first packet: exit status 3; its output: "
                                       f"{self.folder}/run/autopilot.log\n")
         done = self.run_hedgehop("--set", "link.command=[no_such_autopilot]")
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "hedgehop: link.command: 'no_such_autopilot' cannot be started: No such file or directory\n")
+        self.assertEqual(done.stderr, "link.command: 'no_such_autopilot' cannot be started: No such file or directory\n")
 
 
 if __name__ == "__main__":

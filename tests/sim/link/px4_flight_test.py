@@ -32,6 +32,7 @@ link:
   frame_class: 1
   frame_type: 1
   stand_altitude: 0.3
+  command: []
 """
 
 
@@ -131,8 +132,8 @@ class Px4Flight(unittest.TestCase):
         self.assertEqual(seen[0][36], 65535)
 
     def test_an_attitude_module_is_refused_before_the_flight(self):
-        done, _ = self.fly(lambda autopilot: autopilot.fly(), "--set", "avoidance={module: corridor_centering, law: published}", "--set",
-                           "rig.cameras.0={role: down, model: fisheye, width: 100, height: 100, fov: 190, pitch: -90, rate: 10}")
+        done = self.run_hedgehop("--set", "avoidance={module: corridor_centering, law: published}", "--set",
+                                 "rig.cameras.0={role: fisheye, model: fisheye, width: 100, height: 100, fov: 190, pitch: -90, rate: 10}")
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertIn("the module commands attitudes, which autopilots do not accept", done.stderr)
@@ -175,13 +176,13 @@ class Px4Flight(unittest.TestCase):
     def test_silence_and_a_port_in_use_are_refused_before_the_flight(self):
         done = self.run_hedgehop("--set", "link.wait=0.1")
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "hedgehop: link: no autopilot within 0.1 s; start: make px4_sitl none_iris\n")
+        self.assertEqual(done.stderr, "link: no autopilot within 0.1 s; start: make px4_sitl none_iris\n")
         with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as other:
             other.bind(("127.0.0.1", self.port))
             other.listen()
             done = self.run_hedgehop()
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, f"hedgehop: link.port: {self.port} is in use (instance N uses {self.port} + N)\n")
+        self.assertEqual(done.stderr, f"link.port: {self.port} is in use (instance N uses {self.port} + N)\n")
 
     def test_vehicles_and_rates_that_do_not_fit_are_refused(self):
         done = self.run_hedgehop("--set", "link.frame_type=0")

@@ -90,8 +90,13 @@ TEST(Companion, SwitchesTheInterlockOfAHelicopterOffToArmAndOnToFly) {
     EXPECT_EQ(channels.channels[7], 1000);
     EXPECT_EQ(channels.channels[2], 65535) << "other channels stay as they are";
   }
+  EXPECT_NE(pair.autopilot.mode, 4u) << "GUIDED keeps the rotor at idle";
   pair.run_for(3.0);
   EXPECT_EQ(pair.autopilot.overrides.back().channels[7], 2000);
+  EXPECT_EQ(pair.companion.awaited().substr(0, 23), "the run-up of its rotor");
+  pair.run_for(25.0);
+  EXPECT_EQ(pair.autopilot.mode, 4u);
+  EXPECT_TRUE(pair.autopilot.took_off);
 }
 
 TEST(Companion, StreamsTheStartToPx4BeforeOffboardMode) {

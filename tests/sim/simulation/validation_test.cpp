@@ -25,7 +25,7 @@ const std::vector<ScenarioError>& scenario_errors() {
       {"'film.rate': must be >= 0.01 Hz, got 0", [](Scenario& s) { s.film.rate_hz = 0.0; }},
       {"'start.heading': must be <= 360 deg", [](Scenario& s) { s.start.heading_rad = 3.0 * std::numbers::pi; }},
       {"'rig.cameras.0.rate': must be >=", [](Scenario& s) { s.rig.cameras[0].rate_hz = -1.0; }},
-      {"'name': must be 1 to 200 letters", [](Scenario& s) { s.name = "a/b"; }},
+      {"'name': must not contain '/'", [](Scenario& s) { s.name = "a/b"; }},
       {"'physics_rate': must be <= 10000 Hz", [](Scenario& s) { s.physics_rate_hz = 20000; }},
       {"'control_rate': 300 Hz does not divide the physics rate", [](Scenario& s) { s.control_rate_hz = 300; }},
       {"'start.altitude': 10 m is outside",

@@ -230,7 +230,7 @@ class Logs(unittest.TestCase):
             self.assertEqual(other["topics"], self.mcap["topics"])
             self.assertEqual(other["compression"], "" if name == "none" else name)
         again = self.folder / "again"
-        done = hedgehop("export", self.scenario, "--format", "mcap", "--truth", "--out", again)
+        done = hedgehop("export", self.run_folder / "scenario.yaml", "--format", "mcap", "--truth", "--out", again)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((again / "flight.mcap").read_bytes(), (self.run_folder / "mcap/flight.mcap").read_bytes())
 
