@@ -15,7 +15,7 @@ namespace {
 constexpr int kTheta = 0, kV = 3, kP = 6, kGyro = 9, kAccelerometer = 12, kWander = 15, kCompass = 17, kBarometer = 18;
 
 constexpr double kInitialVelocitySigmaMps = 0.05;  // chosen: hover at the start
-// Least errors that the filter assumes, chosen below those of real sensors: with exact ones, the errors of its own
+// Minimum errors that the filter assumes, chosen below those of real sensors: with exact ones, the errors of its own
 // integration remain, such as those of the IMU's low-pass filter.
 constexpr double kMinGyroDensity = 1e-5;           // rad/s/sqrt(Hz)
 constexpr double kMinAccelerometerDensity = 1e-4;  // m/s^2/sqrt(Hz)

@@ -10,8 +10,8 @@
 namespace hedgehop::sim {
 
 /// Messages to and from an autopilot outside this process, in addition to its physics: the link moves the bytes, the
-/// channel gives them a meaning. receive() is called once per physics step, in and before the flight, then send() if the
-/// autopilot receives a state on that step.
+/// channel gives them a meaning. receive() is called once per physics step, in and before the flight, then send() if
+/// the autopilot receives a state on that step.
 class MessageChannel {
  public:
   virtual ~MessageChannel() = default;

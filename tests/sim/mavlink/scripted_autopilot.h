@@ -73,7 +73,7 @@ class ScriptedAutopilot {
         mode = make_ == kPx4 ? static_cast<uint32_t>(parameter(2)) << 16 : static_cast<uint32_t>(parameter(2));
         return kAccepted;
       case 400:
-        if (parameter(1) != 1.0f || mode != (make_ == kPx4 ? kOffboardMode : 4u)) return kDenied;
+        if (parameter(1) != 1.0f || (make_ == kPx4 && mode != kOffboardMode)) return kDenied;
         if (t_ns < filter_ready_ns || refused_armings-- > 0) return refuse("PreArm: Need Position Estimate", kDenied);
         armed = true;
         return kAccepted;

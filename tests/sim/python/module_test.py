@@ -160,7 +160,7 @@ class FromFile(unittest.TestCase):
     def test_an_exception_of_a_module_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
         self.assertEqual(result["outcome"], "fault")
-        for text in ("0.520 s", "ValueError: no way", f"{self.file}:25 in update"):
+        for text in ("0.520 s", "ValueError: no way", f"{self.file}:26 in update"):
             self.assertIn(text, result["cause"])
         self.assertNotIn("\n", result["cause"])
 
@@ -168,7 +168,7 @@ class FromFile(unittest.TestCase):
         broken = self.folder / "broken.py"
         broken.write_text("import nothing_of_that_name\n")
         for values, text in (({**SHORT, "avoidance": {"python": "none.py", "class": "A"}}, "there is no such file"),
-                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: AnnotatesANumber, Fails, GoToGoal, Looks, "),
+                             (self.python("GoToGaol"), "has no class 'GoToGaol'; its modules: AnnotatesANumber, CommandsOfNoType, Fails, GoToGoal, Looks, "),
                              (self.python("GoToGoal", sped=1), "unexpected keyword argument 'sped'"),
                              ({**SHORT, "avoidance": {"python": str(broken), "class": "A"}}, "nothing_of_that_name"),
                              ({**SHORT, "avoidance": {"python": str(self.file)}}, "class")):
