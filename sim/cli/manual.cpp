@@ -55,7 +55,7 @@ constexpr Example kExamples[] = {
     {"report", "hedgehop report out/garratt2009_room --against out/before", "with the changes since out/before"},
     {"report", "hedgehop report out/garratt2009_room --film-strips 10", "with images of the worst flights"},
     {"runs", "hedgehop runs out", "out/index.html"},
-    {"validate", "hedgehop validate configs --recursive", "without flying"},
+    {"validate", "hedgehop validate configs/worlds", "without flying"},
     {"list", "hedgehop list modules", ""},
     {"list", "hedgehop list scenario", ""},
     {"trim", "hedgehop trim configs/vehicles/xcell_60.yaml --speed -4:20:4 --plot trim.html", ""},
