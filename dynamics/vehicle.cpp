@@ -58,18 +58,22 @@ void Vehicle::reset_on_stand(const Eigen::Vector3d& p_WB, double heading_rad, co
 bool Vehicle::step_on_stand(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s) {
   const RigidBodyState held = body();
   step(command, wind_W, dt_s);
+  set_body(held, wind_W);
+  return (held.q_WB * specific_force_B()).z() < -kGravityMps2;
+}
+
+void Vehicle::set_body(const RigidBodyState& body, const Eigen::Vector3d& wind_W) {
   std::visit(
       [&](auto& flight) {
         auto state = flight.state();
         if constexpr (requires { state.body; }) {
-          state.body = held;
+          state.body = body;
         } else {
-          state.airframe.body = held;
+          state.airframe.body = body;
         }
         flight.set_state(state, wind_W);
       },
       flight_);
-  return (held.q_WB * specific_force_B()).z() < -kGravityMps2;
 }
 
 void Vehicle::set_engine(bool on) {

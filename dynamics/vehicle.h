@@ -48,6 +48,8 @@ class Vehicle {
   /// As step(), but the stand holds the pose; only rotors and servos move. @return whether the thrust exceeds the
   /// weight after the step.
   bool step_on_stand(const ActuatorCommand& command, const Eigen::Vector3d& wind_W, double dt_s);
+  /// Replaces pose and velocities; rotors and servos keep their state.
+  void set_body(const RigidBodyState& body, const Eigen::Vector3d& wind_W);
   /// Switches the engine of a helicopter with a governor from now on; reset() and reset_on_stand() switch it on. Has no
   /// effect on other vehicles.
   void set_engine(bool on);

@@ -1,10 +1,18 @@
 #include "sim/loop/aircraft.h"
 
+#include <numbers>
 #include <utility>
 
+#include "dynamics/rigid_body.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
+namespace {
+
+// A vehicle beyond these bounds misses the stand, or breaks it.
+constexpr double kStandRadiusM = 1.0, kMaxTouchdownSpeedMps = 1.5, kMaxTouchdownTiltRad = std::numbers::pi / 9.0;
+
+}  // namespace
 
 Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts parts)
     : scenario_(scenario),
@@ -25,6 +33,7 @@ void Aircraft::reset_on_stand(const CollisionWorld& world) {
   if (const std::optional<double> stand_m = stand_altitude_m(scenario_)) p_WB.z() = -*stand_m;
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   vehicle_.reset_on_stand(p_WB, scenario_.start.heading_rad, wind_W_);
+  p_stand_W_ = p_WB;
   on_stand_ = true;
   avionics_.reset(truth(world, 0));
 }
@@ -40,7 +49,23 @@ void Aircraft::move(int64_t tick) {
     on_stand_ = !(lifts && engine_on_);
   } else {
     vehicle_.step(actuators_, wind_W_, ticks_.dt_s());
+    on_stand_ = touches_stand();
+    if (on_stand_) set_down();
   }
+}
+
+bool Aircraft::touches_stand() const {
+  if (!p_stand_W_ || body().p_WB.z() < p_stand_W_->z()) return false;
+  const Eigen::Vector3d from_stand_W = body().p_WB - *p_stand_W_;
+  return from_stand_W.head<2>().norm() <= kStandRadiusM && body().v_WB_B.norm() <= kMaxTouchdownSpeedMps &&
+         dynamics::tilt_rad(dynamics::to_roll_pitch_heading(body().q_WB)) <= kMaxTouchdownTiltRad;
+}
+
+void Aircraft::set_down() {
+  dynamics::RigidBodyState rest;
+  rest.p_WB = {body().p_WB.x(), body().p_WB.y(), p_stand_W_->z()};
+  rest.q_WB = dynamics::from_roll_pitch_heading(0.0, 0.0, dynamics::to_roll_pitch_heading(body().q_WB).z());
+  vehicle_.set_body(rest, wind_W_);
 }
 
 Eigen::Vector3d Aircraft::specific_force_B() const {

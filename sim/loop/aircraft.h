@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/collision/proximity.h"
@@ -40,7 +41,7 @@ class Aircraft {
   }
   /// Advances by one tick. @param tick  before the step.
   void move(int64_t tick);
-  /// Whether the stand of a linked flight holds the vehicle.
+  /// Whether the stand of a linked flight holds the vehicle: until its thrust exceeds its weight, and after a landing.
   bool on_stand() const { return on_stand_; }
   /// Specific force at the mass center, including that of the stand, m/s^2.
   Eigen::Vector3d specific_force_B() const;
@@ -57,6 +58,9 @@ class Aircraft {
   const Eigen::Vector3d& wind_W() const { return wind_W_; }
 
  private:
+  bool touches_stand() const;
+  /// Levels the vehicle at rest on the stand.
+  void set_down();
   /// Returns the true values that the sensors measure; valid until the next call.
   dynamics::SensedTruth truth(const CollisionWorld& world, int64_t tick);
 
@@ -72,6 +76,7 @@ class Aircraft {
   } surroundings_;
   std::vector<dynamics::ActuatorFault> faults_;  ///< of this tick
   dynamics::ActuatorCommand actuators_ = dynamics::Controls(dynamics::Controls::Zero());
+  std::optional<Eigen::Vector3d> p_stand_W_;  ///< of the body's origin at rest
   bool on_stand_ = false, engine_on_ = true;
 };
 

@@ -1,8 +1,10 @@
 // Flights whose commands come from an autopilot in the test itself: the stand, the start and the ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -43,7 +45,7 @@ class TestAutopilot : public OutsideAutopilot {
   std::variant<OutsideCommand, LinkEnd> exchange(const OutsideInput& input) override {
     inputs.push_back(input);
     if (input.step == lost_at) return LinkEnd{Outcome::link_lost, "link: lost by the test"};
-    const double share = input.step < rest_steps ? 0.0 : share_then;
+    const double share = input.step < rest_steps ? 0.0 : input.step < descent_at ? share_then : share_down;
     const PerRotor speeds_radps = PerRotor::Constant(4, share * kHighestRadps);
     return OutsideCommand{.actuators = speeds_radps};
   }
@@ -51,8 +53,8 @@ class TestAutopilot : public OutsideAutopilot {
   LinkFigures figures() const override { return {.kind = "test", .start_tick = started}; }
 
   std::vector<OutsideInput> inputs;
-  int64_t rest_steps = 100, lost_at = -1;
-  double share_then = 0.6;
+  int64_t rest_steps = 100, descent_at = std::numeric_limits<int64_t>::max(), lost_at = -1;
+  double share_then = 0.6, share_down = 0.0;
   std::optional<int64_t> started;
 };
 
@@ -123,6 +125,33 @@ TEST(LinkedSimulation, VehicleThatNeverTakesOffEndsTheFlight) {
   const Flight flight = Simulation(scenario_with({"link.start_within=0.4"}), nullptr, &autopilot).run();
   EXPECT_EQ(flight.result.outcome, Outcome::link_lost);
   EXPECT_EQ(flight.result.cause, "link: the vehicle did not reach the start within 0.4 s");
+}
+
+TEST(LinkedSimulation, VehicleThatDescendsSlowlyRestsOnTheStand) {
+  TestAutopilot autopilot;
+  autopilot.share_then = 0.57;
+  autopilot.descent_at = 400;
+  autopilot.share_down = 0.53;  // hover: 0.541
+  const Flight flight = Simulation(scenario_with({"duration=3"}), nullptr, &autopilot).run();
+  EXPECT_EQ(flight.result.outcome, Outcome::timeout);
+  double top_m = 0.0;
+  for (const OutsideInput& input : autopilot.inputs) top_m = std::max(top_m, -input.body.p_WB.z());
+  EXPECT_GT(top_m, 6.02);
+  const OutsideInput& last = autopilot.inputs.back();
+  EXPECT_TRUE(last.on_stand);
+  EXPECT_EQ(last.body.p_WB.z(), -6.0);
+  EXPECT_EQ(last.body.v_WB_B, Eigen::Vector3d::Zero());
+  EXPECT_EQ(last.body.w_WB_B, Eigen::Vector3d::Zero());
+  EXPECT_NEAR((last.specific_force_B - Eigen::Vector3d(0, 0, -9.81)).norm(), 0.0, 1e-12);
+}
+
+TEST(LinkedSimulation, StandDoesNotHoldAVehicleThatFallsOnIt) {
+  TestAutopilot autopilot;
+  autopilot.share_then = 0.8;
+  autopilot.descent_at = 500;
+  const Flight flight = Simulation(scenario_with({"duration=5"}), nullptr, &autopilot).run();
+  EXPECT_EQ(flight.result.outcome, Outcome::collided);
+  EXPECT_FALSE(autopilot.inputs.back().on_stand);
 }
 
 TEST(LinkedSimulation, ClockBeginsAtTheStartAboveTheStand) {
