@@ -10,7 +10,8 @@ struct PerceptionConfig {
   bool obstacle_distance = true, distance_sensor = true, optical_flow = true, vision_position = true, odometry = true;
   double min_m = 0.3, max_m = 20.0;
   double band_m = 0.5;
-  vision::stereo::StereoMatcherConfig stereo{.disparities_px = 32};  ///< of images 320 px wide
+  vision::stereo::StereoMatcherConfig stereo{.method = vision::stereo::StereoMatcherConfig::Method::block,
+                                             .block_px = 11};  ///< of images up to 640 px wide
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PerceptionConfig> auto& c) {

@@ -20,7 +20,7 @@ const avoidance::MountedCamera& mounted_camera(const avoidance::Setup& setup, co
 class SectorSource {
  public:
   static constexpr int64_t kPeriodNs = 100'000'000;  ///< between two images that are used
-  static constexpr int kStereoWidthPx = 320;
+  static constexpr int kStereoWidthPx = 640;
 
   /// Of a depth camera.
   SectorSource(const avoidance::MountedCamera& depth, const SectorLimits& limits);

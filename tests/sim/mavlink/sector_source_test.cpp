@@ -44,12 +44,33 @@ TEST(SectorSource, FindsTheRangeOfAWallFromAStereoPair) {
   const ObstacleSectors* const sectors = sources[0].sectors(1);
   ASSERT_TRUE(sectors);
   const double expected_m = 350.0 * kBaselineM / kDisparityPx;
-  constexpr double kSubpixel = 0.05;  // of the matcher at half resolution
+  constexpr double kSubpixel = 0.05;
   EXPECT_NEAR(sectors->at(0).nearest_m, expected_m, kSubpixel * expected_m);
   EXPECT_NEAR(sectors->at(3).nearest_m, expected_m / std::cos(15.0 * std::numbers::pi / 180.0),
               2.0 * kSubpixel * expected_m);
   EXPECT_FALSE(sectors->at(20).seen);
   EXPECT_FALSE(sources[0].sectors(600'000'000)) << "half a second later";
+}
+
+/// A smooth brightness with the noise of two sensors, as of sky or haze: a matcher that fills in finds surfaces in it.
+TEST(SectorSource, NoiseOfAPlainSkyIsNoObstacle) {
+  avoidance::Setup setup;
+  setup.cameras = {forward_at("left", 0.0), forward_at("right", 0.25)};
+  auto sources = sector_sources({}, grey_pair("left", "right"), setup, {});
+  cv::RNG random(3);
+  int obstacles = 0;
+  for (int64_t i = 0; i < 10; ++i) {
+    cv::Mat left(360, 640, CV_8UC1), right(360, 640, CV_8UC1);
+    random.fill(left, cv::RNG::NORMAL, 180, 2);
+    random.fill(right, cv::RNG::NORMAL, 180, 2);
+    const int64_t t_ns = i * SectorSource::kPeriodNs;
+    const std::vector<avoidance::CameraFrame> frames = {{"left", t_ns, left}, {"right", t_ns, right}};
+    sources.at(0).update(t_ns, {.t_ns = t_ns, .frames = frames});
+    const ObstacleSectors* const sectors = sources[0].sectors(t_ns);
+    ASSERT_TRUE(sectors);
+    for (int k = 0; k < ObstacleSectors::kCount; ++k) obstacles += std::isfinite(sectors->at(k).nearest_m) ? 1 : 0;
+  }
+  EXPECT_EQ(obstacles, 0);
 }
 
 TEST(SectorSource, TakesPairsWithPrefixesAndNoSideCameras) {
