@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sim/collision/convex_body.h"
+#include "sim/collision/placed_hull.h"
 #include "sim/collision/solid_bodies.h"
 #include "sim/collision/surface_tree.h"
 #include "sim/fields/quantities.h"
@@ -36,11 +37,7 @@ struct Collector : btDbvt::ICollide {
 
 class CollisionWorld::World {
  public:
-  World(const scenes::Scene& scene, const std::vector<HullPart>& hull) : has_ground_(scene.has_ground) {
-    if (hull.empty()) throw std::invalid_argument("the hull has no parts");
-    for (const HullPart& part : hull) {
-      parts_.push_back({make_body(part, "hull part " + std::to_string(parts_.size())), part.center_B_m});
-    }
+  World(const scenes::Scene& scene, const std::vector<HullPart>& hull) : has_ground_(scene.has_ground), hull_(hull) {
     size_t id = 0;
     for (size_t i = 0; i < scenes::solid_count(scene); ++i) {
       const Solid& solid = scenes::solid_at(scene, i);
@@ -63,7 +60,7 @@ class CollisionWorld::World {
   }
 
   Proximity query(const Eigen::Isometry3d& X_WB, double search_radius_m, double t_s) {
-    place_hull(X_WB);
+    hull_.place(X_WB);
     NearestBody nearest{search_radius_m, {}, Eigen::Vector3d::Zero()};
     const auto reach_m = [&] { return std::max(nearest.clearance_m, 0.0) + kClosedFormErrorM; };
     const auto consider_other = [&](size_t id, const PlacedBody& body) {
@@ -73,9 +70,9 @@ class CollisionWorld::World {
     // The previously nearest solid is still close: its distance reduces the search without changing the result.
     if (last_nearest_) consider_last(*last_nearest_, nearest);
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reach_m());
-    visit_static(hull_box_W_.min() - reach, hull_box_W_.max() + reach,
+    visit_static(hull_.box_W().min() - reach, hull_.box_W().max() + reach,
                  [&](size_t index) { consider_other(id_of_[index], placed_[index]); });
-    surfaces_.visit_near(hull_box_W_, reach_m, consider_other);
+    surfaces_.visit_near(hull_.box_W(), reach_m, consider_other);
     if (nearest.id) last_nearest_ = nearest.id;
     for (const MoverBodies& mover_bodies : movers_) {
       const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
@@ -89,7 +86,7 @@ class CollisionWorld::World {
       result.nearest_solid = solid_of(*nearest.id);
       result.nearest_point_W = nearest.point_W;
     }
-    if (has_ground_) result.ground_clearance_m = ground_clearance();
+    if (has_ground_) result.ground_clearance_m = hull_.ground_clearance_m();
     result.collided = result.obstacle_clearance_m <= 0.0 || result.ground_clearance_m <= 0.0;
     return result;
   }
@@ -130,11 +127,6 @@ class CollisionWorld::World {
   }
 
  private:
-  struct PartBody {
-    ConvexBody body;
-    Eigen::Vector3d center_B_m;
-  };
-
   // Bodies of a mover: `count` from `first` on, placed in M, all within the radius of M's origin.
   struct MoverBodies {
     scenes::Motion motion;
@@ -205,18 +197,6 @@ class CollisionWorld::World {
     return {*in_M.body, Eigen::Translation3d(p_WM) * in_M.X_WS};
   }
 
-  void place_hull(const Eigen::Isometry3d& X_WB) {
-    placed_parts_.clear();
-    hull_box_W_.setEmpty();
-    Eigen::Isometry3d X_WS = X_WB;
-    for (const PartBody& part : parts_) {
-      X_WS.translation() = X_WB * part.center_B_m;
-      placed_parts_.emplace_back(part.body, X_WS);
-      const Eigen::Vector3d half_m = placed_parts_.back().half_size_W();
-      hull_box_W_.extend(Eigen::AlignedBox3d(X_WS.translation() - half_m, X_WS.translation() + half_m));
-    }
-  }
-
   void consider_last(size_t id, NearestBody& nearest) const {
     const auto consider_it = [&](size_t, const PlacedBody& body) { consider(id, body, nearest); };
     if (surfaces_.has(id)) return surfaces_.visit_one(id, consider_it);
@@ -225,7 +205,7 @@ class CollisionWorld::World {
 
   // Updates `nearest` if this body is nearer. Of equally near bodies, the lower id counts in any order.
   void consider(size_t id, const PlacedBody& body, NearestBody& nearest) const {
-    for (const PlacedBody& part : placed_parts_) {
+    for (const PlacedBody& part : hull_.parts()) {
       const Eigen::Vector3d center_W = part.X_WS.translation();
       const double part_radius_m = part.body->bounding_radius_m + kClosedFormErrorM;
       const double balls_m = (body.X_WS.translation() - center_W).norm() - body.body->bounding_radius_m - part_radius_m;
@@ -240,12 +220,6 @@ class CollisionWorld::World {
         nearest = {found.distance_m, id, found.on_second_W};
       }
     }
-  }
-
-  double ground_clearance() const {
-    double lowest_z = -kInfinity;
-    for (const PlacedBody& part : placed_parts_) lowest_z = std::max(lowest_z, part.extent(Eigen::Vector3d::UnitZ()));
-    return -lowest_z;
   }
 
   static double ground_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W) {
@@ -265,7 +239,7 @@ class CollisionWorld::World {
   }
 
   bool has_ground_;
-  std::vector<PartBody> parts_;
+  PlacedHull hull_;  // at the pose of the present query
   // Bodies and triangles have ids in the order of their solids, then of those of the movers.
   std::vector<size_t> first_id_;    // of each solid
   std::vector<PosedBody> bodies_;   // in that order, without the triangles of surfaces that do not move
@@ -276,10 +250,6 @@ class CollisionWorld::World {
   btDbvt tree_;                         // of static bodies
   double lowest_z_ = -kInfinity;        // of static bodies and surfaces, in W
   std::optional<size_t> last_nearest_;  // id
-
-  // The hull at the pose of the present query.
-  std::vector<PlacedBody> placed_parts_;
-  Eigen::AlignedBox3d hull_box_W_;
 };
 
 CollisionWorld::CollisionWorld(const scenes::Scene& scene, const std::vector<HullPart>& hull)

@@ -9,94 +9,10 @@
 #include <random>
 
 #include "sim/scenario/reference_path.h"
+#include "tests/sim/verdict/straight_flight.h"
 
 namespace hedgehop::sim {
 namespace {
-
-/// A straight flight north at 2 m/s and 10 m altitude, 0 to 20 s, that ends 1 m from its goal.
-struct StraightFlight {
-  Scenario scenario;
-  Flight flight;
-  scenes::Scene scene;
-
-  StraightFlight() {
-    scenario.duration_s = 100.0;
-    scenario.goal = GoalConfig{.north_m = 41.0, .radius_m = 2.0};
-    for (int i = 0; i <= 200; ++i) {
-      TrajectoryRow row;
-      row.t_s = 0.1 * i;
-      row.p_WB_true = {0.2 * i, 0.0, -10.0};
-      row.rpy_true = {0.0, -0.1, 0.0};
-      row.v_WB_W_true = {2.0, 0.0, 0.0};
-      row.w_WB_B_true.setZero();
-      flight.trajectory.push_back(row);
-    }
-    flight.result.outcome = Outcome::reached;
-    flight.result.flight_time_s = 20.0;
-    flight.result.goal_distance_m = 1.0;
-    flight.result.closest_obstacle.distance_m = 1.5;
-    flight.result.closest_ground.distance_m = 9.0;
-    flight.result.metrics = {{"reversals", 3.0, ""}};
-    scene.bounds_NE_m = {Eigen::Vector2d(0.0, -5.0), Eigen::Vector2d(40.0, 5.0)};
-  }
-
-  CheckResult evaluate(const CheckConfig& check) {
-    scenario.checks = {check};
-    return evaluate_checks(scenario, flight, scene, 0.8).front();
-  }
-};
-
-TEST(Checks, ReachedGoalNeedsDistanceTimeAndOutcome) {
-  StraightFlight f;
-  EXPECT_TRUE(f.evaluate(ReachedGoalCheck{}).passed);
-  EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.within_m = 0.5}).passed);
-  EXPECT_FALSE(f.evaluate(ReachedGoalCheck{.before_s = 19.0}).passed);
-  f.flight.result.outcome = Outcome::timeout;
-  f.scenario.goal->altitude_m = 14.5;  // the flight is below it
-  const CheckResult low = f.evaluate(ReachedGoalCheck{});
-  EXPECT_FALSE(low.passed);
-  EXPECT_DOUBLE_EQ(low.value, 4.5);
-  EXPECT_DOUBLE_EQ(low.limit, 3.0);
-  f.flight.result.outcome = Outcome::collided;
-  EXPECT_FALSE(f.evaluate(ReachedGoalCheck{}).passed);
-}
-
-/// A value next to FAIL must violate its own bound.
-TEST(Checks, AFailedReachedGoalNeverShowsAValueThatHolds) {
-  StraightFlight f;
-  f.flight.result.closest_obstacle.distance_m = -0.01;
-  const GoalConfig before_goal;
-  for (const Outcome outcome : {Outcome::reached, Outcome::collided, Outcome::timeout, Outcome::fault}) {
-    for (const double distance_m : {1.0, 7.0, 30.0}) {
-      for (const double altitude_m : {f.scenario.goal->altitude_m, 30.0}) {
-        for (const size_t waypoints : {0, 1}) {
-          StraightFlight one = f;
-          one.flight.result.outcome = outcome;
-          one.flight.result.goal_distance_m = distance_m;
-          one.scenario.goal->altitude_m = altitude_m;
-          one.scenario.route.assign(waypoints, before_goal);
-          for (const ReachedGoalCheck& check :
-               {ReachedGoalCheck{}, ReachedGoalCheck{.within_m = 10.0, .before_s = 19.0},
-                ReachedGoalCheck{.within_m = 10.0}}) {
-            const CheckResult result = one.evaluate(check);
-            const bool holds = result.must == ">"    ? result.value > result.limit
-                               : result.must == ">=" ? result.value >= result.limit
-                                                     : result.value <= result.limit;
-            EXPECT_EQ(result.passed, holds) << to_string(outcome) << ' ' << distance_m << ' ' << result.cause;
-          }
-        }
-      }
-    }
-  }
-}
-
-TEST(Checks, ReachedGoalFailsWithoutAGoal) {
-  StraightFlight f;
-  f.scenario.goal.reset();
-  const CheckResult result = f.evaluate(ReachedGoalCheck{});
-  EXPECT_FALSE(result.passed);
-  EXPECT_TRUE(std::isnan(result.value));
-}
 
 TEST(Checks, CollisionFollowsFromTheOutcome) {
   StraightFlight f;

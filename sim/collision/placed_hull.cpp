@@ -1,0 +1,37 @@
+#include "sim/collision/placed_hull.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "sim/collision/solid_bodies.h"
+#include "sim/fields/quantities.h"
+
+namespace hedgehop::sim {
+
+PlacedHull::PlacedHull(const std::vector<dynamics::HullPart>& hull) {
+  if (hull.empty()) throw std::invalid_argument("the hull has no parts");
+  for (const dynamics::HullPart& part : hull) {
+    parts_.push_back({make_body(part, "hull part " + std::to_string(parts_.size())), part.center_B_m});
+  }
+}
+
+void PlacedHull::place(const Eigen::Isometry3d& X_WB) {
+  placed_.clear();
+  box_W_.setEmpty();
+  Eigen::Isometry3d X_WS = X_WB;
+  for (const Part& part : parts_) {
+    X_WS.translation() = X_WB * part.center_B_m;
+    placed_.emplace_back(part.body, X_WS);
+    const Eigen::Vector3d half_m = placed_.back().half_size_W();
+    box_W_.extend(Eigen::AlignedBox3d(X_WS.translation() - half_m, X_WS.translation() + half_m));
+  }
+}
+
+double PlacedHull::ground_clearance_m() const {
+  double lowest_z = -kInfinity;
+  for (const PlacedBody& part : placed_) lowest_z = std::max(lowest_z, part.extent(Eigen::Vector3d::UnitZ()));
+  return -lowest_z;
+}
+
+}  // namespace hedgehop::sim
