@@ -94,6 +94,7 @@ class Gatherer {
       const LoadedScenario loaded = load_flight(file, overrides);
       const Scenario& scenario = loaded.scenario;
       order.inputs = loaded.inputs;
+      order.scenario_sha256 = scenario_sha256(scenario, file.parent_path());
       if (name.empty()) {
         order.group = scenario.name;
         for (const std::string& text : overrides) order.group += " " + text;

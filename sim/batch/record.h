@@ -23,6 +23,7 @@ struct Order {
   uint64_t seed = 0;
   std::vector<std::string> overrides;         ///< "a.b=value", in order
   std::string scenario_yaml;                  ///< the resolved scenario
+  std::string scenario_sha256;                ///< of the scenario without its seed: see scenario_sha256()
   std::map<std::string, std::string> inputs;  ///< files that the flight depends on, with their SHA-256
   std::string fault;                          ///< why it cannot be flown at all, one line; else empty
   std::vector<std::string> more_faults;       ///< of the same file, one line each

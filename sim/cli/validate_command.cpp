@@ -11,6 +11,8 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/config/include.h"
+#include "sim/config/whole_file.h"
+#include "sim/evidence/conduct.h"
 #include "sim/simulation/simulation.h"
 #include "sim/sweep/sweep_file.h"
 
@@ -27,6 +29,28 @@ bool is_sweep(const std::filesystem::path& file) {
   ErrorList errors("file");
   const Node root = load_tree(file, errors);
   return root.find("parameters") && root.find("scenario");
+}
+
+bool is_plan(const std::filesystem::path& file) {
+  ErrorList errors("file");
+  const Node root = load_tree(file, errors);
+  return root.find("question") && root.find("flights");
+}
+
+/// Returns the content of a plan with a line for each scenario: its SHA-256, and the registered one if it differs.
+ValidFile read_plan(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const Registration plan = read_registration(file);
+  const std::vector<RegisteredFlights>& all = plan.config.flights;
+  ValidFile valid{.words = fmt::format("plan of {} scenario{}", all.size(), all.size() == 1 ? "" : "s"), .used = {}};
+  for (const RegisteredFlights& flights : all) {
+    const LoadedScenario loaded = load_flight(flights.scenario, overrides);
+    const std::string found = scenario_sha256(loaded.scenario, std::filesystem::path(flights.scenario).parent_path());
+    valid.words += fmt::format("\n         sha256: {}  {}", found, flights.scenario);
+    if (found != flights.sha256) {
+      valid.words += fmt::format(" (registered: {})", flights.sha256.empty() ? "none" : flights.sha256);
+    }
+  }
+  return valid;
 }
 
 /// Places the vehicle of a flight: some errors show only in the assembled parts.
@@ -61,6 +85,7 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
 }
 
 ValidFile read_valid(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  if (is_plan(file)) return read_plan(file, overrides);
   if (!is_sweep(file)) return read_flights_of(file, overrides);
   const SweepConfig sweep = read_sweep(file, overrides);
   return {fmt::format("sweep of {} parameters of {}", sweep.parameters.size(), sweep.scenario), {}};

@@ -41,6 +41,24 @@ void compare_seeds(const SeedsOf& registered, const SeedsOf& flown, std::vector<
   }
 }
 
+/// Compares the resolved scenarios. An order that cannot be flown has no hash.
+void compare_scenarios(const PlanConfig& plan, const std::vector<Order>& orders, std::vector<std::string>& found) {
+  std::map<std::string, std::set<std::string>> flown;
+  for (const Order& order : orders) {
+    if (!order.scenario_sha256.empty()) flown[key_of(order.scenario)].insert(order.scenario_sha256);
+  }
+  std::set<std::string> lines;
+  for (const RegisteredFlights& flights : plan.flights) {
+    for (const std::string& sha256 : flown[key_of(flights.scenario)]) {
+      if (sha256 == flights.sha256) continue;
+      lines.insert(fmt::format("{}: resolved scenario has SHA-256 {}, registered {}",
+                               std::filesystem::path(flights.scenario).filename().string(), sha256,
+                               flights.sha256.empty() ? "none" : flights.sha256));
+    }
+  }
+  found.insert(found.end(), lines.begin(), lines.end());
+}
+
 std::string rule_words(const std::optional<StoppingRule>& rule) {
   if (!rule) return "none";
   return fmt::format("'{}' at {:g}", rule->text(), rule->confidence);
@@ -98,6 +116,7 @@ std::vector<std::string> deviations(const Registration& plan, const std::vector<
     overrides.insert(order.overrides.begin(), order.overrides.end());
   }
   compare_seeds(registered, flown, found);
+  compare_scenarios(plan.config, orders, found);
   for (const std::string& text : overrides) found.push_back(fmt::format("{} was set", text));
 
   std::optional<StoppingRule> planned;

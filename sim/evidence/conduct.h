@@ -16,11 +16,14 @@ namespace hedgehop::sim {
 struct RegisteredFlights {
   std::string scenario;  ///< relative to the plan's file; once read, to the working folder
   std::string seeds;
+  std::string sha256;  ///< scenario_sha256() as registered; empty if the plan does not state it
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RegisteredFlights> auto& c) {
   v("scenario", c.scenario, {.required = true, .meaning = "scenario file, relative to this file"});
   v("seeds", c.seeds, {.required = true, .meaning = "seeds such as 1001:1400, disjoint from tuned_on"});
+  v("sha256", c.sha256,
+    {.meaning = "SHA-256 of the resolved scenario with its renderer and files, as `hedgehop validate` prints it"});
 }
 
 /// The registered stopping rule.

@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <variant>
 
 #include "scenes/mesh/mesh_import.h"
@@ -53,21 +54,7 @@ std::set<fs::path> named_files(const Scenario& scenario) {
   return files;
 }
 
-}  // namespace
-
-Inputs inputs_of(const Scenario& scenario, const std::set<fs::path>& read, const fs::path& folder) {
-  Inputs inputs;
-  for (const auto& files : {read, named_files(scenario)}) {
-    for (const fs::path& file : files) inputs[name_of(file, folder)] = sha256(file);
-  }
-  return inputs;
-}
-
-std::string sha256(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return "missing";  // a pipe would wait for its writer
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return "missing";
+std::string digest_of(std::istream& stream) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
   std::array<char, 65536> buffer{};
@@ -80,6 +67,42 @@ std::string sha256(const fs::path& file) {
   std::string text;
   for (unsigned i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
   return text;
+}
+
+}  // namespace
+
+Inputs inputs_of(const Scenario& scenario, const std::set<fs::path>& read, const fs::path& folder) {
+  Inputs inputs;
+  for (const auto& files : {read, named_files(scenario)}) {
+    for (const fs::path& file : files) inputs[name_of(file, folder)] = sha256(file);
+  }
+  return inputs;
+}
+
+std::string scenario_sha256(Scenario scenario, const fs::path& folder) {
+  scenario.seed = 0;
+  scenario.description.clear();
+  scenario.tags.clear();
+  scenario.notes.clear();
+  scenario.origin.reset();
+  scenario.film = FilmConfig();
+  std::string text = to_yaml(scenario), files;
+  for (const fs::path& file : named_files(scenario)) {
+    const std::string name = name_of(file, folder), whole = fs::absolute(file).lexically_normal().string();
+    for (size_t at = 0; (at = text.find(whole, at)) != std::string::npos; at += name.size()) {
+      text.replace(at, whole.size(), name);
+    }
+    files += name + " " + sha256(file) + "\n";
+  }
+  std::istringstream stream(text + files);
+  return digest_of(stream);
+}
+
+std::string sha256(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return "missing";  // a pipe would wait for its writer
+  std::ifstream stream(file, std::ios::binary);
+  return stream ? digest_of(stream) : "missing";
 }
 
 }  // namespace hedgehop::sim

@@ -19,6 +19,12 @@ using Inputs = std::map<std::string, std::string>;
 Inputs inputs_of(const Scenario& scenario, const std::set<std::filesystem::path>& read,
                  const std::filesystem::path& folder);
 
+/// Returns the SHA-256 of all inputs of the flights of a scenario except their seed: every resolved value, with the
+/// renderer, and the content of every file that it names. Equal in every copy of the files. Description, tags, notes,
+/// origin, film and the layout of YAML files do not count.
+/// @param folder  of the scenario's file.
+std::string scenario_sha256(Scenario scenario, const std::filesystem::path& folder);
+
 /// 64 hexadecimal digits, or "missing" if there is no such file.
 std::string sha256(const std::filesystem::path& file);
 

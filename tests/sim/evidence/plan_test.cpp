@@ -7,18 +7,33 @@ namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class PlanFolder : public CampaignFolder {
  public:
   PlanFolder() {
+    write_plan("");
+    write_plan(", sha256: " + sha256_of("plan.yaml"));
+  }
+  /// @param hash  end of the scenario's entry.
+  void write_plan(const std::string& hash) const {
     write("plan.yaml",
           "question: does tiny collide in under half of its starts?\n"
-          "flights: [{scenario: tiny.yaml, seeds: 101:110}]\n"
-          "rule: {until: collision < 0.5}\n"
-          "tuned_on: {seeds: 1:100, settings_tried: 14}\n");
+          "flights: [{scenario: tiny.yaml, seeds: 101:110" +
+              hash +
+              "}]\n"
+              "rule: {until: collision < 0.5}\n"
+              "tuned_on: {seeds: 1:100, settings_tried: 14}\n");
+  }
+  /// Returns the SHA-256 that `validate` prints for the scenario of a plan.
+  std::string sha256_of(const std::string& file) const {
+    const std::string words = hedgehop("validate " + file).out;
+    const size_t at = words.find("sha256: ");
+    return at == std::string::npos ? words : words.substr(at + 8, 64);
   }
   Json plan(const std::string& out = "out") const { return json(out + "/batch.json").at("conduct").at("plan"); }
   /// Returns the state of the plan on the page of `out`.
@@ -55,6 +70,60 @@ TEST(Plan, AChangeAfterTheFlightsIsShownOnThePage) {
   EXPECT_EQ(folder.on_page(), "changed");
   std::filesystem::remove(folder.path() / "plan.yaml");
   EXPECT_EQ(folder.on_page(), "gone");
+}
+
+TEST(Plan, CoversEveryResolvedValueAndFileOfTheScenario) {
+  const PlanFolder folder;
+  folder.write("gusts.yaml", "turbulence_w20: 16\n");
+  folder.write("tiny.yaml", folder.read("tiny.yaml") + "wind: {use: gusts.yaml}\n");
+  folder.write_plan(", sha256: " + folder.sha256_of("plan.yaml"));
+  const auto deviations = [&](const std::string& options = "") {
+    folder.shell("rm -rf out");
+    folder.hedgehop("batch --plan plan.yaml --out out" + options);
+    return folder.plan().at("deviations");
+  };
+  const auto changed = HasSubstr("tiny.yaml: resolved scenario has SHA-256 ");
+  EXPECT_THAT(deviations(), IsEmpty());
+  folder.write("gusts.yaml", "# no change\nturbulence_w20: 16.0\n");
+  EXPECT_THAT(deviations(), IsEmpty());
+  folder.write("gusts.yaml", "turbulence_w20: 0\n");
+  EXPECT_THAT(deviations(), ElementsAre(changed));
+  folder.write("gusts.yaml", "turbulence_w20: 16\n");
+  EXPECT_THAT(deviations(" --renderer tiles"), ElementsAre(changed, "drawing.renderer=tiles was set"));
+  folder.write("tiny.yaml", folder.read("tiny.yaml") + "drawing: {renderer: tiles}\n");
+  EXPECT_THAT(deviations(), ElementsAre(changed));
+}
+
+TEST(Plan, WithoutTheHashOfItsScenarioRegistersNone) {
+  const PlanFolder folder;
+  folder.write_plan("");
+  folder.hedgehop("batch --plan plan.yaml --out out");
+  EXPECT_THAT(folder.plan().at("deviations"), ElementsAre(AllOf(HasSubstr("tiny.yaml: resolved scenario has SHA-256 "),
+                                                                HasSubstr(", registered none"))));
+}
+
+TEST(Plan, OfAMovedFolderHoldsAndAChangedMeshIsADeviation) {
+  const PlanFolder folder;
+  folder.write("post.obj", "v 40 0 0\nv 41 0 0\nv 40 1 0\nf 1 2 3\n");
+  folder.write("tiny.yaml", folder.read("tiny.yaml") + "  # a post far away\n");
+  folder.write("tiny.yaml", folder.read("tiny.yaml")
+                                .replace(folder.read("tiny.yaml").find("{texture_size: 64}"), 18,
+                                         "{texture_size: 64, imports: [{file: post.obj, name: "
+                                         "post}]}"));
+  const std::string hash = folder.sha256_of("plan.yaml");
+  ASSERT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
+  folder.shell("mkdir moved && cp tiny.yaml post.obj plan.yaml moved");
+  EXPECT_EQ(folder.sha256_of("moved/plan.yaml"), hash);
+  folder.write("moved/post.obj", "v 40 0 0\nv 41 0 0\nv 40 2 0\nf 1 2 3\n");
+  EXPECT_NE(folder.sha256_of("moved/plan.yaml"), hash);
+}
+
+/// A new key of scenarios changes the hash; `hedgehop validate configs/plans` prints it.
+TEST(Plan, OfThisFolderIsRegisteredWithItsScenarios) {
+  const CampaignFolder folder;
+  const CommandEnd end = folder.hedgehop("validate " HEDGEHOP_SOURCE_DIR "/configs/plans");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, Not(HasSubstr("registered: "))) << end.out;
 }
 
 TEST(PlanInBrowser, StatesTheSeedsAndThePlanOfTheRate) {
@@ -102,10 +171,11 @@ TEST(Plan, ListsEveryDeviation) {
                "  - {scenario: tiny.yaml, seeds: 101:103, set: [avoidance.speed=0.4]}\n");
   folder.hedgehop("batch campaign.yaml --until 'collision < 0.6' --limit 90 --out out");
   const Json found = folder.plan().at("deviations");
-  EXPECT_THAT(found,
-              ElementsAre("tiny.yaml: seeds 101:103, registered 101:110", "avoidance.speed=0.4 was set",
-                          "rule 'collision < 0.6' at 0.95, registered 'collision < 0.5' at 0.95",
-                          "flights over 90 s of wall time were ended", HasSubstr(", registered 0123456789abcdef")));
+  EXPECT_THAT(
+      found,
+      ElementsAre("tiny.yaml: seeds 101:103, registered 101:110", HasSubstr("resolved scenario has SHA-256 "),
+                  "avoidance.speed=0.4 was set", "rule 'collision < 0.6' at 0.95, registered 'collision < 0.5' at 0.95",
+                  "flights over 90 s of wall time were ended", HasSubstr(", registered 0123456789abcdef")));
 }
 
 TEST(Plan, RejectsBadPlansWithTheirPlace) {
