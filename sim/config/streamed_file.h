@@ -1,38 +1,29 @@
 #pragma once
 
-#include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <string_view>
+
+#include "sim/config/pending_file.h"
 
 namespace hedgehop::sim {
 
-/// Returns the result of a system call, which is repeated if a signal interrupts it.
-template <class Call>
-auto uninterrupted(Call call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-/// A file that is written piece by piece into a temporary file (`.part`) and renamed at the end, so that `file` is
-/// complete or absent. An existing special file (/dev/stdout, a pipe) is written directly. All functions throw
+/// A file that is written piece by piece and is absent until close(): see PendingFile. All functions throw
 /// std::runtime_error with the file and the cause (full disk, missing permission).
 class StreamedFile {
  public:
   explicit StreamedFile(const std::filesystem::path& file);
-  StreamedFile(const StreamedFile&) = delete;
-  StreamedFile& operator=(const StreamedFile&) = delete;
-  /// Removes the temporary file of a file that was not closed.
-  ~StreamedFile();
 
   void write(std::string_view bytes);
   void close();
 
  private:
-  [[noreturn]] void fail(int error);
+  template <class Action>
+  void guarded(Action action);
+  void require_open() const;
 
-  std::filesystem::path file_, part_;
-  int descriptor_ = -1;
+  std::filesystem::path file_;
+  std::optional<PendingFile> pending_;
 };
 
 }  // namespace hedgehop::sim

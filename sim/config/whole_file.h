@@ -6,11 +6,8 @@
 
 namespace hedgehop::sim {
 
-/// Writes `text` to a temporary file (`.part`) and renames it, so that `file` is complete or absent. An existing
-/// special file
-/// (/dev/stdout, a pipe) is written directly.
-/// Throws std::runtime_error with the file and the cause (full disk, missing permission) and removes the temporary
-/// file.
+/// Writes a file that is complete or absent: see PendingFile. Throws std::runtime_error with the file and the cause
+/// (full disk, missing permission).
 void write_file_whole(const std::filesystem::path& file, std::string_view text);
 
 /// Returns all bytes of `file`. Throws InputError if the file does not exist or is not a regular file (a pipe may never

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <exception>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "sim/config/pending_file.h"
 #include "sim/fields/quantities.h"
 #include "sim/record/film_encoder.h"
 
@@ -33,12 +35,15 @@ MakeFilmEncoder* film_library() {
 class Film::Impl {
  public:
   Impl(const std::filesystem::path& file, double rate_hz, cv::Size size_px)
-      : file_(file), part_(file.string() + ".part"), size_px_(size_px.width & ~1, size_px.height & ~1) {
+      : file_(file), size_px_(size_px.width & ~1, size_px.height & ~1) {
     if (!(rate_hz > 0.0) || size_px_.area() <= 0) {
       throw std::invalid_argument(fmt::format("film {}: rate {} Hz and size {} x {} must be positive", file.string(),
                                               rate_hz, size_px.width, size_px.height));
     }
-    guarded([&] { film_library()(part_, rate_hz, size_px_, encoder_); });
+    guarded([&] {
+      pending_.emplace(file_);
+      film_library()(pending_->path(), rate_hz, size_px_, encoder_);
+    });
   }
 
   void add(const cv::Mat& rgb) {
@@ -58,7 +63,7 @@ class Film::Impl {
     guarded([&] {
       encoder_->finish();
       encoder_.reset();
-      std::filesystem::rename(part_, file_);
+      pending_->publish();
     });
   }
 
@@ -75,12 +80,12 @@ class Film::Impl {
 
   void discard() {
     encoder_.reset();
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
+    pending_.reset();
   }
 
-  std::filesystem::path file_, part_;
+  std::filesystem::path file_;
   cv::Size size_px_;
+  std::optional<PendingFile> pending_;
   std::unique_ptr<FilmEncoder> encoder_;
   cv::Mat i420_;
   bool any_ = false;

@@ -15,7 +15,7 @@ namespace hedgehop::sim {
 /// image and does not affect the flight. From the first film on, FFmpeg prints only errors on standard error.
 class Film {
  public:
-  /// Opens `file_webm` under the name `.part` until close().
+  /// The file is absent until close(): see PendingFile.
   /// @param rate_hz  images per second, > 0. @param size_px  at least 2 x 2; an odd last row or column is cropped.
   /// Throws std::runtime_error with the file and the cause if the encoder is missing or the file cannot be written. The
   /// flight may continue without a film.

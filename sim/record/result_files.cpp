@@ -20,6 +20,11 @@ void forget_flight(const std::filesystem::path& run_folder) {
   for (const char* name : {"result.json", "report.html", "replay.html", "map.json", "strip.jpg"}) {
     std::filesystem::remove(run_folder / name, ignored);
   }
+  // Left by a killed process if the file system has no unnamed files: see PendingFile.
+  for (const char* name : {"scenario.yaml", "trajectory.csv", "decisions.csv", "result.json", "report.html",
+                           "replay.html", "map.json", "video.webm"}) {
+    std::filesystem::remove((run_folder / name) += ".part", ignored);
+  }
 }
 
 void write_result_files(const std::filesystem::path& run_folder, const RunInfo& info, const Flight& flight) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sim/config/whole_file.h"
 #include "sim/sweep/sweep.h"
 
 namespace hedgehop::sim {
@@ -56,15 +57,13 @@ int bind(sqlite3_stmt* statement, int place, const Table::Column& column, size_t
   return sqlite3_bind_double(statement, place, number);
 }
 
-void fill(const std::filesystem::path& file, const Table& table) {
+/// Returns the file of a database with the table. It is built in memory, because SQLite writes only files with names.
+std::string bytes_of(const Table& table) {
   sqlite3* opened = nullptr;
-  const int error = sqlite3_open(file.c_str(), &opened);
+  const int error = sqlite3_open(":memory:", &opened);
   const Database database(opened);
   expect(error == SQLITE_OK, opened);
-  // No journal is required because the file is new and becomes visible by a rename.
-  expect(sqlite3_exec(opened, "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN", nullptr, nullptr, nullptr) ==
-             SQLITE_OK,
-         opened);
+  expect(sqlite3_exec(opened, "BEGIN", nullptr, nullptr, nullptr) == SQLITE_OK, opened);
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (const std::string& name : table.names()) names.push_back(quoted_name(unique_name(name, taken)));
@@ -84,21 +83,16 @@ void fill(const std::filesystem::path& file, const Table& table) {
     sqlite3_reset(prepared);
   }
   expect(sqlite3_exec(opened, "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK, opened);
+
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(sqlite3_serialize(opened, "main", &size, 0),
+                                                                      sqlite3_free);
+  if (!bytes) throw std::runtime_error(fmt::format("SQLite has no memory for {} rows", table.rows()));
+  return {bytes.get(), bytes.get() + size};
 }
 
 }  // namespace
 
-void write_sqlite(const std::filesystem::path& file, const Table& table) {
-  const std::filesystem::path part = file.string() + ".part";
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  try {
-    fill(part, table);
-    std::filesystem::rename(part, file);
-  } catch (const std::exception& error) {
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.what()));
-  }
-}
+void write_sqlite(const std::filesystem::path& file, const Table& table) { write_file_whole(file, bytes_of(table)); }
 
 }  // namespace hedgehop::sim

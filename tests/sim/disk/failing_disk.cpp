@@ -1,6 +1,6 @@
 // Simulates a failing disk as a library between a program and the C library (LD_PRELOAD). It counts the file calls of
-// the program and its children below one folder: create, write, rename, mkdir, and close of a written file. It then
-// lets one call, or all calls from one on, fail:
+// the program and its children below one folder: create, write, link, rename, mkdir, and close of a written file. It
+// then lets one call, or all calls from one on, fail:
 //   FAILING_DISK_FOLDER   absolute path of the folder
 //   FAILING_DISK_COUNTER  file of 16 bytes, initially zero, which is the shared counter of these processes
 //   FAILING_DISK_FAULT    none
@@ -182,6 +182,12 @@ int poll(pollfd* watched, nfds_t count, int timeout_ms) {
 int rename(const char* from, const char* to) noexcept {
   static const auto next = real<int(const char*, const char*)>("rename");
   return unless_faulty<int>(!interrupts() && is_below(to), [&] { return next(from, to); });
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  static const auto next = real<int(int, const char*, int, const char*, int)>("linkat");
+  return unless_faulty<int>(!interrupts() && is_below(to),
+                            [&] { return next(from_folder, from, to_folder, to, flags); });
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {

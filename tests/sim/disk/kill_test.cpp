@@ -22,11 +22,21 @@ using ::testing::IsEmpty;
 
 class Killed : public ::testing::TestWithParam<std::string_view> {
  protected:
+  /// Returns the names of incomplete files in `out`.
+  std::vector<std::string> incomplete_files() const {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (std::filesystem::recursive_directory_iterator at(folder.path() / "out", error), end; at != end; ++at) {
+      if (at->path().extension() == ".part") names.push_back(at->path().string());
+    }
+    return names;
+  }
   /// Resumes the killed campaign in `out`, expects the files of an undisturbed campaign and removes the folder.
   void resume(const std::map<std::string, std::string>& whole, const std::string& killed) {
     const CommandEnd end = folder.hedgehop(folder.arguments(GetParam(), "out", 2));
     EXPECT_EQ(end.status, 0) << killed << ": " << end.err;
     EXPECT_THAT(differences(whole, folder.lasting_files("out")), IsEmpty()) << killed;
+    EXPECT_THAT(incomplete_files(), IsEmpty()) << killed;
     std::filesystem::remove_all(folder.path() / "out");
   }
   SmallCampaign folder;
@@ -84,6 +94,7 @@ TEST_P(Killed, AtAnyTimeLosesNoResults) {
     int status = 0;
     waitpid(command, &status, 0);
     close(descriptor);
+    EXPECT_THAT(incomplete_files(), IsEmpty());
     resume(whole, fmt::format("{} killed after {} of {:.0f} ms", at_worker ? "worker" : "command", after_ms, whole_ms));
   }
 }

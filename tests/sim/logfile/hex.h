@@ -28,7 +28,6 @@ class WrittenFile {
   WrittenFile& operator=(const WrittenFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path part() const { return path_.string() + ".part"; }
   std::string bytes() const {
     std::ifstream in(path_, std::ios::binary);
     std::ostringstream out;

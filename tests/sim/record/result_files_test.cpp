@@ -151,10 +151,10 @@ TEST(ResultFiles, RemoveThoseOfAnEarlierFlight) {
 
 TEST(ResultFiles, FullDiskNamesFileAndCause) {
   const TemporaryFolder folder;
-  std::filesystem::create_symlink("/dev/full", folder.path() / "trajectory.csv.part");
+  std::filesystem::create_symlink("/dev/full", folder.path() / "trajectory.csv");
   EXPECT_THAT(error_of([&] { write_result_files(folder.path(), kInfo, fake_flight(1.0, 2)); }),
               AllOf(HasSubstr("trajectory.csv"), HasSubstr("No space left on device")));
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "trajectory.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "result.json"));
 }
 
 TEST(ResultFiles, NamesAFolderThatCannotBeCreatedAndTheCause) {
