@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/plugin/foreign_module.h"
+#include "sim/plugin/module_process.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -75,11 +76,24 @@ class Takeover : public avoidance::Module {
   std::vector<size_t> indices_of_after_;
 };
 
+/// A module that failed while it was made. It fails again in the flight, so that the flight has a verdict.
+class FailedModule : public avoidance::Module {
+ public:
+  explicit FailedModule(ModuleFault fault) : fault_(std::move(fault)) {}
+
+ private:
+  avoidance::Needs do_needs() const override { return {}; }
+  void do_reset(const avoidance::Setup&) override {}
+  avoidance::Decision do_update(const avoidance::Observation&) override { throw fault_; }
+  std::vector<avoidance::Metric> do_metrics() const override { throw fault_; }
+  ModuleFault fault_;
+};
+
 }  // namespace
 
 std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,
                                                       std::unique_ptr<avoidance::Module> module,
-                                                      const std::filesystem::path& folder) {
+                                                      const std::filesystem::path& folder) try {
   if (!module) module = make_module(scenario.avoidance, folder);
   if (!scenario.takeover) return module;
   return build_part("takeover.avoidance", [&] {
@@ -87,6 +101,8 @@ std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, 
                          make_module(scenario.takeover->avoidance, folder.empty() ? folder : folder / "takeover"),
                          ticks.t_ns(ticks.ticks(scenario.takeover->at_s)));
   });
+} catch (const ModuleFault& fault) {
+  return std::make_unique<FailedModule>(fault);
 }
 
 std::unique_ptr<avoidance::Module> make_takeover(std::unique_ptr<avoidance::Module> before,

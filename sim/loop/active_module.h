@@ -11,6 +11,7 @@
 namespace hedgehop::sim {
 
 /// Returns the module of a flight. If the scenario has a takeover, the returned module combines both modules.
+/// If a module fails while it is loaded (ModuleFault), the returned module fails at its first decision.
 /// @param module  of the scenario; null for a foreign module, which is loaded. @param folder  as of make_module().
 /// Throws InputError if a module cannot be loaded, or if the two modules need different cameras.
 std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,

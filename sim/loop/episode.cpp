@@ -100,8 +100,9 @@ Flight Episode::flight() const {
                                 metric.is_wall_time ? FigureKind::wall_time : FigureKind::module});
     }
   } catch (const std::exception& error) {  // the flight is valid, but its module is not reliable
+    if (result.outcome != Outcome::fault)
+      result.cause = fmt::format("the module failed after its flight: {}", error.what());
     result.outcome = Outcome::fault;
-    result.cause = fmt::format("the module failed after its flight: {}", error.what());
   }
   flight.command_latency_s = pilot_.command_latency_s();
   flight.map = map_log_.record();

@@ -37,7 +37,7 @@ class ModuleProcess : public avoidance::Module {
         process_(options.folder, [&](Channel& channel, int memory) { serve_module(source, channel, memory); }) {
     MessageWriter request;
     request(ModuleCall::load);
-    const std::string answer = call(request, options.load_limit_s, Faults::of_input);
+    const std::string answer = load(request);
     MessageReader in(answer);
     in.next<ModuleAnswer>();
     in(needs_, signals_);
@@ -60,7 +60,6 @@ class ModuleProcess : public avoidance::Module {
 
  private:
   static constexpr double kEndLimitS = 2.0;  // of the module's destructor
-  enum class Faults { of_input, of_flight };
 
   avoidance::Needs do_needs() const override { return needs_; }
   std::vector<avoidance::Signal> do_signals() const override { return signals_; }
@@ -69,7 +68,11 @@ class ModuleProcess : public avoidance::Module {
     resize_images(setup);
     MessageWriter request;
     request(ModuleCall::reset, setup, image_bytes_);
-    call(request, options_.load_limit_s, Faults::of_flight);
+    try {
+      call(request, options_.load_limit_s);
+    } catch (const ModuleFault& fault) {
+      broken_ = fmt::format("{} while it was reset", fault.what());
+    }
   }
 
   avoidance::Decision do_update(const avoidance::Observation& seen) override {
@@ -89,35 +92,38 @@ class ModuleProcess : public avoidance::Module {
         used += (bytes + kAlignment - 1) / kAlignment * kAlignment;
       }
     }
-    return answer_of<avoidance::Decision>(request);
+    return answer_of<avoidance::Decision>(request, options_.limit_s);
   }
   std::vector<avoidance::Metric> do_metrics() const override {
     return reported<std::vector<avoidance::Metric>>(ModuleCall::metrics);
   }
   avoidance::Map do_map() const override { return reported<avoidance::Map>(ModuleCall::map); }
-  /// A fault of an annotation leaves the flight as it is: it is called for videos only.
+  /// After its first crash or timeout, no more images are requested.
   cv::Mat do_annotate() const override {
+    if (!draws_) return {};
+    MessageWriter request;
+    request(ModuleCall::annotate, options_.limit_s);
     try {
-      return reported<cv::Mat>(ModuleCall::annotate);
-    } catch (const std::exception&) {
-      return {};
+      return answer_of<cv::Mat>(request, options_.limit_s + kEndLimitS);
+    } catch (const ModuleFault&) {
+      draws_ = false;
+    } catch (const std::exception&) {  // perhaps of this image only
     }
+    return {};
   }
 
   template <class Answer>
-  Answer answer_of(const MessageWriter& request) const {
-    const std::string answer = call(request, options_.limit_s, Faults::of_flight);
+  Answer answer_of(const MessageWriter& request, double limit_s) const {
+    const std::string answer = call(request, limit_s);
     MessageReader in(answer);
     in.next<ModuleAnswer>();
     return in.next<Answer>();
   }
-  /// Returns an optional report; empty once the process has ended.
   template <class Answer>
   Answer reported(ModuleCall what) const {
-    if (!broken_.empty()) return {};
     MessageWriter request;
     request(what);
-    return answer_of<Answer>(request);
+    return answer_of<Answer>(request, options_.limit_s);
   }
 
   static constexpr size_t kAlignment = 64;
@@ -148,25 +154,39 @@ class ModuleProcess : public avoidance::Module {
     images_ = static_cast<char*>(mapped);
   }
 
-  /// Sends a request and returns its answer. Throws as make_module_process() says.
-  std::string call(const MessageWriter& request, double limit_s, Faults faults) const {
-    if (!broken_.empty()) throw std::runtime_error(broken_);
+  /// Sends the first request and returns its answer. Throws as make_module_process() says.
+  std::string load(const MessageWriter& request) const {
+    try {
+      return call(request, options_.load_limit_s);
+    } catch (const InputError&) {
+      throw;
+    } catch (const ModuleFault& fault) {
+      throw ModuleFault(fmt::format("{} while it was loaded", fault.what()));
+    } catch (const std::runtime_error& refusal) {
+      throw std::invalid_argument(refusal.what());
+    }
+  }
+
+  /// Sends a request and returns its answer. Throws ModuleFault, InputError, or std::runtime_error with the text of
+  /// another std::exception of the module.
+  std::string call(const MessageWriter& request, double limit_s) const {
+    if (!broken_.empty()) throw ModuleFault(broken_);
     const auto until = after(limit_s);
     std::string answer;
     Channel::Outcome outcome = process_.channel().send(request.bytes(), until);
     if (outcome == Channel::Outcome::done) outcome = process_.channel().receive(answer, until);
-    if (outcome != Channel::Outcome::done) give_up(outcome, limit_s, faults);
+    if (outcome != Channel::Outcome::done) give_up(outcome, limit_s);
     try {
-      throw_fault(answer, faults);
+      throw_fault(answer);
     } catch (const MalformedAnswer&) {
-      give_up(Channel::Outcome::oversized, limit_s, faults);
+      give_up(Channel::Outcome::oversized, limit_s);
     }
     return answer;
   }
 
   struct MalformedAnswer {};
 
-  void throw_fault(const std::string& answer, Faults faults) const {
+  void throw_fault(const std::string& answer) const {
     MessageReader in(answer);
     ModuleAnswer kind{};
     std::vector<std::string> lines;
@@ -183,12 +203,12 @@ class ModuleProcess : public avoidance::Module {
     if (kind == ModuleAnswer::input_error && fields.empty()) throw InputError(lines);
     if (kind == ModuleAnswer::input_error) throw InputError(std::move(fields));
     const std::string line = lines.empty() || lines[0].empty() ? "threw an exception without a text" : lines[0];
-    if (faults == Faults::of_input) throw std::invalid_argument(line);
+    if (kind == ModuleAnswer::fault) throw ModuleFault(fmt::format("'{}' {}", options_.name, line));
     throw std::runtime_error(line);
   }
 
   /// Ends the process and throws the cause.
-  [[noreturn]] void give_up(Channel::Outcome outcome, double limit_s, Faults faults) const {
+  [[noreturn]] void give_up(Channel::Outcome outcome, double limit_s) const {
     const int status = process_.stop();
     std::string cause = "sent an invalid answer";
     if (outcome == Channel::Outcome::overdue) {
@@ -199,8 +219,7 @@ class ModuleProcess : public avoidance::Module {
       cause = fmt::format("crashed ({})", ::strsignal(WTERMSIG(status)));
     }
     broken_ = fmt::format("'{}' {}", options_.name, cause);
-    if (faults == Faults::of_input) throw std::invalid_argument(cause);
-    throw std::runtime_error(broken_);
+    throw ModuleFault(broken_);
   }
 
   ModuleProcessOptions options_;
@@ -209,7 +228,8 @@ class ModuleProcess : public avoidance::Module {
   size_t image_bytes_ = 0;
   avoidance::Needs needs_;
   std::vector<avoidance::Signal> signals_;
-  mutable std::string broken_;  ///< why the process ended; empty while it runs
+  mutable std::string broken_;  ///< why the module no longer answers; empty while it does
+  mutable bool draws_ = true;
 };
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "sim/plugin/module_server.h"
 
 #include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -28,7 +32,11 @@ class ModuleServer {
       MessageReader in(request);
       const auto call = in.next<ModuleCall>();
       if (call == ModuleCall::end) break;
-      answer([&](MessageWriter& out) { perform(call, in, out); });
+      if (call == ModuleCall::annotate) {
+        annotate_in_copy(in.next<double>());
+      } else {
+        answer(channel_, [&](MessageWriter& out) { perform(call, in, out); });
+      }
     }
     module_.reset();
   }
@@ -51,14 +59,44 @@ class ModuleServer {
       case ModuleCall::map:
         return out(module_->map());
       case ModuleCall::annotate:
-        return out(module_->annotate());
       case ModuleCall::end:
         return;
     }
   }
 
+  /// Lets a copy of this process draw the image, so that the flight does not depend on it. A copy that does not answer
+  /// within the limit is killed.
+  void annotate_in_copy(double limit_s) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return send_fault("has no socket left");
+    Channel own(ends[0]), other(ends[1]);
+    const pid_t copy = ::fork();
+    if (copy == 0) {
+      process_ = ::getpid();
+      own.close();
+      answer(other, [&](MessageWriter& out) { out(module_->annotate()); });
+      ::_exit(0);
+    }
+    other.close();
+    std::string drawn;
+    const auto limit = std::chrono::duration_cast<Channel::Clock::duration>(std::chrono::duration<double>(limit_s));
+    const bool has_drawn = copy > 0 && own.receive(drawn, Channel::Clock::now() + limit) == Channel::Outcome::done;
+    if (copy > 0) {
+      ::kill(copy, SIGKILL);
+      ::waitpid(copy, nullptr, 0);
+    }
+    if (!has_drawn) return send_fault("did not draw its image");
+    channel_.send(drawn);
+  }
+
+  void send_fault(const char* what) {
+    MessageWriter fault;
+    fault(ModuleAnswer::fault, std::vector<std::string>{what}, size_t{0});
+    channel_.send(fault.bytes());
+  }
+
   /// Sends the result of a call, or its fault. A copy of the process that the module made by fork() ends here.
-  void answer(const std::function<void(MessageWriter&)>& call) {
+  void answer(Channel& channel, const std::function<void(MessageWriter&)>& call) {
     MessageWriter done, failed;
     bool holds = true;
     const auto fail = [&](ModuleAnswer kind, std::vector<std::string> lines, const std::vector<FieldError>& fields) {
@@ -75,14 +113,14 @@ class ModuleServer {
     } catch (const std::exception& error) {
       fail(ModuleAnswer::failed, {one_line(std::string(error.what()).substr(0, kMaxTextBytes))}, none);
     } catch (...) {
-      fail(ModuleAnswer::failed, {"threw an object that is no std::exception"}, none);
+      fail(ModuleAnswer::fault, {"threw an object that is no std::exception"}, none);
     }
     if (::getpid() != process_) ::_exit(0);
-    const Channel::Outcome sent = channel_.send(holds ? done.bytes() : failed.bytes());
+    const Channel::Outcome sent = channel.send(holds ? done.bytes() : failed.bytes());
     if (sent != Channel::Outcome::oversized) return;
     MessageWriter large;
     large(ModuleAnswer::failed, std::vector<std::string>{"gave an answer of more than 256 MB"}, size_t{0});
-    channel_.send(large.bytes());
+    channel.send(large.bytes());
   }
 
   void map_images(size_t bytes) {

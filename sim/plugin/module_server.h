@@ -18,7 +18,12 @@ struct SharedImage {
 };
 
 /// How a call ended, at the head of its answer.
-enum class ModuleAnswer { done, input_error, failed };
+enum class ModuleAnswer {
+  done,
+  input_error,
+  failed,  ///< the module threw a std::exception
+  fault    ///< any other failure of the module
+};
 
 /// Answers the requests of the channel until it ends, then ends the process. @param memory  file of the images.
 [[noreturn]] void serve_module(const ModuleSource& source, Channel& channel, int memory);

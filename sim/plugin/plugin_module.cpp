@@ -116,8 +116,8 @@ std::unique_ptr<avoidance::Module> make_plugin_module(const PluginConfig& config
   try {
     return make_module_process([&whole] { return load_module(whole); },
                                {.name = config.module, .limit_s = config.limit_s, .folder = folder});
-  } catch (const std::invalid_argument& fault) {
-    refuse(config, fmt::format("{} while it was loaded", fault.what()));
+  } catch (const std::invalid_argument& refusal) {
+    refuse(config, refusal.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -113,6 +114,10 @@ std::unique_ptr<avoidance::Module> make_python_module(const PythonConfig& config
     if (config.in_process || known_maker()) return make();
     return make_module_process(make, {.name = config.class_name, .limit_s = config.limit_s, .folder = folder});
   } catch (const InputError&) {
+    throw;
+  } catch (const ModuleFault&) {
+    throw;
+  } catch (const std::system_error&) {  // of the machine
     throw;
   } catch (const std::exception& fault) {
     refuse(config, fault.what());

@@ -36,6 +36,18 @@ std::string one_line(const py::error_already_set& error) {
   return text;
 }
 
+/// Returns an attribute, or a null object if there is none. Throws the exception of a property, unlike
+/// hasattr().
+py::object find_attribute(const py::object& object, const char* name) {
+  if (PyObject* const found = PyObject_GetAttrString(object.ptr(), name))
+    return py::reinterpret_steal<py::object>(found);
+  const py::error_already_set error;
+  const py::object absent = py::none();
+  const py::object known = py::module_::import("inspect").attr("getattr_static")(object, name, absent);
+  if (!error.matches(PyExc_AttributeError) || !known.is(absent)) throw error;
+  return {};
+}
+
 /// Calls Python with the lock of the interpreter.
 template <class Call>
 auto locked(const Call& call) {
@@ -71,7 +83,8 @@ T as(const py::handle& value, const std::string& name, const std::string& expect
 class PythonModule : public avoidance::Module {
  public:
   explicit PythonModule(py::object instance) : instance_(std::move(instance)) {
-    if (!py::hasattr(instance_, "update")) throw std::invalid_argument("the class of a module needs a method update()");
+    if (!find_attribute(instance_, "update"))
+      throw std::invalid_argument("the class of a module needs a method update()");
   }
   ~PythonModule() override {
     const py::gil_scoped_acquire lock;
@@ -108,7 +121,7 @@ class PythonModule : public avoidance::Module {
   }
   void do_reset(const avoidance::Setup& setup) override {
     locked([&] {
-      if (py::hasattr(instance_, "reset")) instance_.attr("reset")(py::cast(setup));
+      if (const py::object reset = find_attribute(instance_, "reset")) reset(py::cast(setup));
     });
   }
   avoidance::Decision do_update(const avoidance::Observation& observation) override {
@@ -134,8 +147,8 @@ class PythonModule : public avoidance::Module {
 
   /// Returns the value of an attribute, or its return value if it is callable.
   py::object given(const char* name, py::object otherwise) const {
-    if (!py::hasattr(instance_, name)) return otherwise;
-    py::object value = instance_.attr(name);
+    py::object value = find_attribute(instance_, name);
+    if (!value) return otherwise;
     return PyCallable_Check(value.ptr()) ? value() : value;
   }
   static avoidance::CameraNeed to_need(const py::handle& need) {

@@ -36,7 +36,9 @@ struct MisbehavingConfig {
     fork,
     print,
     close_files,
-    stop
+    stop,
+    allocate,
+    change_state
   };
   enum class Where { update, make, needs, signals, reset, metrics, map, annotate, end };
   How how = How::behave;
@@ -44,15 +46,16 @@ struct MisbehavingConfig {
   int at = 3;
   double speed_mps = 1.0;
   std::vector<double> list = {1.0, 2.0};
-  std::string word = "none";
+  std::string word = "none", signal = "AA";
   bool flag = false;
 };
 template <class Visitor>
 void describe(Visitor& v, MisbehavingConfig& c) {
   v("how", c.how,
-    {.choices = {"behave", "raise_exception", "segfault", "abort", "recurse", "hang", "not_finite", "refuse", "exit",
-                 "end_at_once", "end_quickly", "end_thread", "throw_int", "change_folder", "fork", "print",
-                 "close_files", "stop"},
+    {.choices = {"behave",      "raise_exception", "segfault",  "abort",         "recurse",
+                 "hang",        "not_finite",      "refuse",    "exit",          "end_at_once",
+                 "end_quickly", "end_thread",      "throw_int", "change_folder", "fork",
+                 "print",       "close_files",     "stop",      "allocate",      "change_state"},
      .meaning = "kind of failure"});
   v("place", c.where,
     {.choices = {"update", "make", "needs", "signals", "reset", "metrics", "map", "annotate", "end"},
@@ -61,6 +64,7 @@ void describe(Visitor& v, MisbehavingConfig& c) {
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "ahead"});
   v("list", c.list, {.meaning = "numbers"});
   v("word", c.word, {.meaning = "a word"});
+  v("signal", c.signal, {.meaning = "name of a signal"});
   v("flag", c.flag, {.meaning = "a flag"});
 }
 
@@ -85,7 +89,7 @@ class Misbehaving : public Module {
   }
   std::vector<Signal> do_signals() const override {
     misbehave_in(MisbehavingConfig::Where::signals);
-    return {{"AA", "m"}, {"aa", "m"}};  // a column each
+    return {{config_.signal, "m"}, {"aa", "m"}};  // a column each
   }
   void do_reset(const Setup&) override {
     misbehave_in(MisbehavingConfig::Where::reset);
@@ -102,7 +106,7 @@ class Misbehaving : public Module {
 
   Decision do_update(const Observation& seen) override {
     if (++decisions_ == config_.at) misbehave_in(MisbehavingConfig::Where::update);
-    VelocityCommand command{.v_WB_W = {config_.speed_mps, 0.0}, .altitude_m = -seen.goal.p_WG.z()};
+    VelocityCommand command{.v_WB_W = {speed_factor_ * config_.speed_mps, 0.0}, .altitude_m = -seen.goal.p_WG.z()};
     if (decisions_ >= config_.at && config_.how == MisbehavingConfig::How::not_finite) {
       command.altitude_m = std::numeric_limits<double>::quiet_NaN();
     }
@@ -121,6 +125,12 @@ class Misbehaving : public Module {
     if (config_.how == How::fork && ::fork() < 0) std::abort();
     if (config_.how == How::print) std::puts("text of the module");
     if (config_.how == How::close_files) ::closefrom(0);
+    if (config_.how == How::change_state) speed_factor_ = 0.0;
+    while (config_.how == How::allocate) {
+      spins_ = spins_ + 97;
+      void* volatile block = std::malloc(1 + spins_ % 100'000);
+      std::free(block);
+    }
     if (config_.how == How::stop) std::raise(SIGSTOP);
     if (config_.how == How::raise_exception) throw std::runtime_error("no idea");
     if (config_.how == How::segfault) *static_cast<volatile int*>(nullptr) = 1;
@@ -143,6 +153,7 @@ class Misbehaving : public Module {
   MisbehavingConfig config_;
   int decisions_ = 0;
   mutable volatile unsigned spins_ = 0;
+  mutable double speed_factor_ = 1.0;
 };
 
 std::unique_ptr<Module> make(const MisbehavingConfig& config) { return std::make_unique<Misbehaving>(config); }

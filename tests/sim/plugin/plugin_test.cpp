@@ -7,27 +7,13 @@
 #include "sim/batch/flight_table.h"
 #include "sim/record/flight_columns.h"
 #include "sim/scenario/validate.h"
-#include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/plugin/plugin_folder.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-/// A folder whose scenario is flown by a module from outside.
-class Plugin : public ::testing::Test {
- protected:
-  void fly_by(const std::string& library, const std::string& more) const {
-    folder.write("plug.yaml", "use: tiny.yaml\nname: plug\nduration: 0.4\navoidance: {plugin: " + library +
-                                  ", module: misbehaving, " + more + "}\n");
-  }
-  CommandEnd run(const std::string& parameters, const std::string& arguments = "") const {
-    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {" + parameters + "}");
-    return folder.hedgehop("run plug.yaml --no-video --no-report --out out " + arguments);
-  }
-  CampaignFolder folder;
-};
 
 TEST_F(Plugin, FliesWithItsOwnParametersAndMetrics) {
   const CommandEnd end = run("speed: 0.5, list: [4, 5], word: abc, flag: true");
@@ -86,55 +72,6 @@ TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsTheFlownPart) {
     EXPECT_THAT(result["cause"].get<std::string>(), HasSubstr(cause));
     EXPECT_EQ(result["decisions"], 2) << how;
   }
-}
-
-/// Whatever a module does in any of its calls, the flight ends in a verdict.
-TEST_F(Plugin, NoCallOfAModuleCanPreventTheVerdict) {
-  struct Case {
-    std::string how, where;
-  };
-  std::vector<Case> cases;
-  for (const char* where : {"make", "needs", "signals", "reset", "map", "metrics", "annotate", "end"}) {
-    for (const char* how : {"throw_int", "exit", "segfault"}) cases.push_back({how, where});
-  }
-  for (const char* how : {"exit", "end_at_once", "end_quickly", "end_thread", "stop", "throw_int", "close_files"}) {
-    cases.push_back({how, "update"});
-  }
-  for (const auto& [how, where] : cases) {
-    std::filesystem::remove_all(folder.path() / "out");
-    const CommandEnd end = run("how: " + how + ", place: " + where);
-    const bool before_flight = where == "make" || where == "needs" || where == "signals" || where == "reset";
-    const bool in_flight = where == "update" || where == "map" || where == "metrics";
-    EXPECT_EQ(end.status, before_flight ? 2 : in_flight ? 1 : 0) << how << " in " << where << ": " << end.err;
-    if (before_flight) {
-      EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
-      EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << how << " in " << where;
-    } else {
-      EXPECT_EQ(folder.json("out/result.json")["outcome"] == "fault", in_flight) << how << " in " << where;
-    }
-  }
-}
-
-TEST_F(Plugin, FilmsDoNotChangeAFlightWhoseAnnotationFails) {
-  for (const std::string how : {"raise_exception", "throw_int"}) {
-    fly_by(HEDGEHOP_MISBEHAVING, "limit: 1, parameters: {how: " + how + ", place: annotate}");
-    ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --out film").status, 0);
-    ASSERT_EQ(folder.hedgehop("run plug.yaml --no-report --no-video --out none").status, 0);
-    EXPECT_EQ(folder.json("film/result.json")["trajectory_hash"], folder.json("none/result.json")["trajectory_hash"]);
-  }
-}
-
-TEST_F(Plugin, ChangesOfItsProcessStayThere) {
-  ASSERT_EQ(run("how: behave").status, 0);
-  const auto hash = folder.json("out/result.json")["trajectory_hash"];
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/module"));
-  for (const std::string how : {"change_folder", "fork", "print"}) {
-    const CommandEnd end = run("how: " + how, "--json");
-    EXPECT_EQ(end.status, 0) << how << end.err;
-    EXPECT_EQ(nlohmann::json::parse(end.out)["trajectory_hash"], hash) << how;
-    EXPECT_EQ(folder.json("out/result.json")["trajectory_hash"], hash) << how;
-  }
-  EXPECT_EQ(folder.read("out/module/module.log"), "text of the module\n");
 }
 
 TEST_F(Plugin, FliesTheSameInTheSimulatorsProcess) {
