@@ -10,10 +10,10 @@
 
 #include "sim/batch/input_files.h"
 #include "sim/batch/seeds.h"
-#include "sim/batch/xml_text.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -37,7 +37,7 @@ std::string folder_name(const std::string& group, int number) {
   constexpr size_t kMaxNameLength = 120;
   std::string name;
   for (std::string_view rest = group; !rest.empty();) {
-    const size_t length = std::max<size_t>(1, utf8_length(rest));
+    const size_t length = std::max<size_t>(1, first_character(rest).first);
     const char c = rest[0];
     const bool safe =
         length > 1 || std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=' || c == '_';
@@ -107,7 +107,7 @@ class Gatherer {
         add(order);
       }
     } catch (const InputError& error) {
-      if (name.empty()) order.group = file.stem().string();
+      if (name.empty()) order.group = name_text(file.stem().string());
       order.id = claim(order) + "/bad";
       refuse(order, error);
     }
@@ -131,7 +131,8 @@ class Gatherer {
     }
     if (const auto& tuned_on = conduct.at("tuned_on"); tuned_on.is_string())
       batch_.tuned_on = tuned_on.get<std::string>();
-    if (const auto& plan = conduct.at("plan"); plan.is_object()) batch_.plan = plan.at("file").get<std::string>();
+    if (const auto& plan = conduct.at("plan"); plan.is_object())
+      batch_.plan = raw_name(plan.at("file").get<std::string>());
   }
 
   BatchOrders take() { return std::move(batch_); }
@@ -166,7 +167,7 @@ class Gatherer {
         batch_.checks.push_back(check);
       }
     } catch (const InputError& error) {
-      Order order{.group = file.stem().string(), .scenario = file};
+      Order order{.group = name_text(file.stem().string()), .scenario = file};
       order.id = claim(order) + "/bad";
       refuse(order, error);
     }
@@ -282,8 +283,10 @@ BatchOrders reread_batch(const fs::path& batch_json) {
     const nlohmann::ordered_json batch = read_batch_json(batch_json);
     gatherer.recall(batch_json, batch.value("conduct", nlohmann::ordered_json::object()));
     for (const auto& flight : batch.at("flights")) {
-      gatherer.add_scenario(flight.at("scenario").get<std::string>(), {flight.at("seed").get<uint64_t>()},
-                            flight.at("set").get<std::vector<std::string>>(), flight.at("group").get<std::string>());
+      std::vector<std::string> overrides;
+      for (const auto& text : flight.at("set")) overrides.push_back(raw_name(text.get<std::string>()));
+      gatherer.add_scenario(raw_name(flight.at("scenario").get<std::string>()), {flight.at("seed").get<uint64_t>()},
+                            std::move(overrides), flight.at("group").get<std::string>());
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));

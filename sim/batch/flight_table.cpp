@@ -10,6 +10,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/config/utf8.h"
 #include "sim/flight/words.h"
 #include "sim/scenario/validate.h"
 
@@ -184,7 +185,7 @@ std::vector<FlightRecord> records_of(const Table& table) {
   std::vector<FlightRecord> records(table.rows());
   for (size_t i = 0; i < records.size(); ++i) {
     FlightRecord& record = records[i];
-    record.order = {.id = ids[i], .group = groups[i], .scenario = scenarios[i]};
+    record.order = {.id = ids[i], .group = groups[i], .scenario = raw_name(scenarios[i])};
     record.order.seed = parse_unsigned(seeds[i]).value_or(0);
     record.status = status_of(statuses[i]);
     record.cause = causes[i];
@@ -209,7 +210,7 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<T
   FlightColumns columns(records);
   columns.add_words("id", [](const FlightRecord& r) { return r.order.id; });
   columns.add_words("group", [](const FlightRecord& r) { return r.order.group; });
-  columns.add_words("scenario", [](const FlightRecord& r) { return r.order.scenario.string(); });
+  columns.add_words("scenario", [](const FlightRecord& r) { return name_text(r.order.scenario.string()); });
   columns.add_seeds();
   for (const Table::Column& column : extra) columns.add(column);
   columns.add_words("status", [](const FlightRecord& r) { return std::string(to_string(r.status)); });

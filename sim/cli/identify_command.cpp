@@ -13,6 +13,7 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/cli/vehicle_inputs.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/response_data.h"
@@ -117,7 +118,7 @@ void print_identified_json(const Identified& all, const IdentifyOptions& options
                      {"linear", responses_json(found.model, found.linear, input.axis)},
                      {"coherence", coherence},
                      {"mismatch", mismatch}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ int identify(const IdentifyOptions& options) {
         .axis = all.input.axis,
         .main_states = all.input.main_states};
     const Json data = identification_data(plot, all.found);
-    write_file_whole(options.plot, trim_page(plot.title, data.dump()));
+    write_file_whole(options.plot, trim_page(plot.title, json_text(data)));
     notice(fmt::format("{}\n", options.plot.string()));
   }
   return 0;

@@ -14,6 +14,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
+#include "sim/config/utf8.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -171,7 +172,7 @@ int linearize(const LinearizeOptions& options) {
     json["A_units"] = units_json(linear->state_units, linear->state_units);
     json["B_units"] = units_json(linear->state_units, linear->input_units);
     json["modes"] = modes_json(modes);
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return 0;
   }
   if (!options.csv) fmt::print("Each number has the unit of its row per the unit of its column.\n\n");

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/cli/exit_status.h"
+#include "sim/config/utf8.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/result_io.h"
 #include "sim/pages/replay.h"
@@ -42,7 +43,7 @@ Json state_json(const Simulation& simulation, const std::string& status) {
           status};
 }
 
-std::string event_json(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string event_json(const Json& json) { return json_text(json); }
 
 std::string jpeg_base64(const cv::Mat& rgb) { return rgb.empty() ? "" : base64(jpeg_of(rgb, kViewQuality)); }
 

@@ -13,6 +13,7 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/cli/vehicle_inputs.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/response_data.h"
@@ -94,7 +95,7 @@ void print_step_json(const StepResponse& step, const StepOptions& options) {
                      {"inputs", columns_json(step.record.inputs, step.linear.inputs)},
                      {"states", columns_json(step.record.states, step.linear.states)},
                      {"linear_states", columns_json(step.linear_states, step.linear.states)}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 /// Prints about 25 rows, and the peak of each state that the control commands.
@@ -155,7 +156,7 @@ int step(const StepOptions& options) {
         .axis = response.input.axis,
         .main_states = response.input.main_states};
     const Json data = step_data(plot, response.linear, response.record, response.linear_states);
-    write_file_whole(options.plot, trim_page(plot.title, data.dump()));
+    write_file_whole(options.plot, trim_page(plot.title, json_text(data)));
     notice(fmt::format("{}\n", options.plot.string()));
   }
   return 0;

@@ -14,6 +14,7 @@
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/progress.h"
 #include "sim/config/folder_lock.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/build.h"
@@ -77,7 +78,7 @@ void write_design(const SweepRun& run, const std::vector<std::string>& design_po
   }
   if (block > 0) json["block"] = block;
   if (block > 0) json["points"] = design_points;
-  write_file_whole(run.out / "sweep.json", json.dump() + "\n");
+  write_file_whole(run.out / "sweep.json", json_text(json) + "\n");
 }
 
 EveryWrite write_tables(const SweepRun& run, const FlownSweep& flown, const std::vector<std::string>& design_points,
@@ -201,7 +202,7 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\n", best.records.size() / seeds, design.minimize,
              best.cost, words);
   files.raise();
-  write_file_whole(run.out / "optimum.json", json.dump(2) + "\n");
+  write_file_whole(run.out / "optimum.json", json_text(json, 2) + "\n");
   fmt::print("written: {}\n", (run.out / "optimum.json").string());
   write_campaign_page(run.out);
   return best.cost < design.failure_cost ? 0 : kFails;

@@ -10,6 +10,7 @@
 #include "sim/cli/exit_status.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/trim_data.h"
@@ -100,7 +101,7 @@ void print_trim(const TrimOptions& options, const std::vector<TrimPoint>& rows) 
   if (options.json) {
     Json json = Json::array();
     for (const TrimPoint& row : rows) json.push_back(trim_row_json(row));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   } else if (options.csv) {
     print_trim_csv(rows);
   } else {
@@ -134,7 +135,7 @@ int trim(const TrimOptions& options) {
   print_trim(options, rows);
   if (!options.plot.empty()) {
     const Json data = trim_data(options.vehicle.stem().string(), rows, missing_mps);
-    write_file_whole(options.plot, trim_page(data["title"].get<std::string>(), data.dump()));
+    write_file_whole(options.plot, trim_page(data["title"].get<std::string>(), json_text(data)));
     notice(fmt::format("{}\n", options.plot.string()));
   }
   return 0;

@@ -1,5 +1,7 @@
 #include "sim/dataset/coco.h"
 
+#include "sim/config/utf8.h"
+
 #include <algorithm>
 #include <map>
 
@@ -72,7 +74,7 @@ void CocoImages::add(size_t id, const std::string& file, const cv::Mat& labels) 
   }
 }
 
-std::string CocoImages::json() const { return Json{{"images", images_}, {"annotations", annotations_}}.dump(); }
+std::string CocoImages::json() const { return json_text(Json{{"images", images_}, {"annotations", annotations_}}); }
 
 std::string join_coco(const std::vector<std::string>& worlds) {
   Json joined{{"images", Json::array()}, {"annotations", Json::array()}, {"categories", Json::array()}};
@@ -91,7 +93,7 @@ std::string join_coco(const std::vector<std::string>& worlds) {
     joined["categories"].push_back(
         {{"id", scenes::class_id(kind)}, {"name", std::string(scenes::kSemanticClassNames[i])}});
   }
-  return joined.dump() + "\n";
+  return json_text(joined) + "\n";
 }
 
 }  // namespace hedgehop::sim

@@ -11,6 +11,7 @@
 
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/dataset/coco.h"
 #include "sim/dataset/drawn_world.h"
@@ -75,7 +76,7 @@ std::string request_json(const DatasetRequest& request) {
                   {"distance_m", {b.min_distance_m, b.max_distance_m}},
                   {"speed_mps", b.max_speed_mps},
                   {"turn_radps", b.max_turn_radps}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 void add_pose(const std::optional<Cameras::Instant>& instant, CsvLine& line) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/batch/statistics.h"
+#include "sim/config/utf8.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/flight/build.h"
 #include "sim/flight/json_reader.h"
@@ -40,11 +41,13 @@ Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
 
 Json flight_json(const FlightRecord& record) {
   const Verdict verdict = verdict_of(record);
+  Json overrides = Json::array();
+  for (const std::string& text : record.order.overrides) overrides.push_back(name_text(text));
   return Json{{"id", record.order.id},
               {"group", record.order.group},
-              {"scenario", record.order.scenario.string()},
+              {"scenario", name_text(record.order.scenario.string())},
               {"seed", record.order.seed},
-              {"set", record.order.overrides},
+              {"set", std::move(overrides)},
               {"status", std::string(to_string(record.status))},
               {"passed", verdict == Verdict::unchecked ? Json(nullptr) : Json(verdict == Verdict::passed)},
               {"cause", record.cause},
@@ -110,7 +113,7 @@ std::string batch_json(const BatchOutcome& outcome, const std::string& version) 
   }
   for (const SequentialResult& result : outcome.sequential) json["sequential"].push_back(to_json(result));
   for (const FlightRecord& record : outcome.records) json["flights"].push_back(flight_json(record));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 std::string summary_text(const BatchOutcome& outcome) {

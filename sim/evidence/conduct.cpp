@@ -10,6 +10,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/inputs.h"
@@ -159,7 +160,7 @@ Json to_json(const Conduct& conduct) {
   json["limit_s"] = conduct.limit_s > 0.0 ? Json(conduct.limit_s) : Json(nullptr);
   json["plan"] = nullptr;
   if (conduct.plan) {
-    json["plan"] = {{"file", conduct.plan->file.string()},
+    json["plan"] = {{"file", name_text(conduct.plan->file.string())},
                     {"sha256", conduct.plan->sha256},
                     {"question", conduct.plan->config.question},
                     {"deviations", conduct.deviations}};
@@ -174,7 +175,7 @@ Json conduct_data(const std::filesystem::path& folder) {
   Json data = batch.at("conduct");
   data["sequential"] = batch.at("sequential");
   if (Json& plan = data.at("plan"); !plan.is_null()) {
-    const std::string now = sha256(plan.at("file").get<std::string>());
+    const std::string now = sha256(raw_name(plan.at("file").get<std::string>()));
     plan["now"] = now == plan.at("sha256") ? "same" : now == "missing" ? "gone" : "changed";
   }
   return data;

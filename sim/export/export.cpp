@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/export/formats.h"
 #include "sim/export/log_export.h"
@@ -201,7 +202,7 @@ void write_origin(const Scenario& scenario, const ExportRequest& request, const 
                                 {"start_time_ns", start_time_ns(request.format)},
                                 {"truth_used", flight.result.truth_used},
                                 {"trajectory_hash", flight.result.trajectory_hash}};
-  write_file_whole(request.out / "origin.json", origin.dump(2) + "\n");
+  write_file_whole(request.out / "origin.json", json_text(origin, 2) + "\n");
 }
 
 Flight export_data_set(const Scenario& scenario, const ExportRequest& request, const Recorder::Progress& progress,

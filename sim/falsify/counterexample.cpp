@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/scenario/flight_parts.h"
@@ -124,7 +125,7 @@ std::string falsify_json(const FalsifySearch& search, const FalsifyResult& resul
   for (const Counterexample& found : counterexamples) {
     json["counterexamples"].push_back(counterexample_json(result, found));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace hedgehop::sim

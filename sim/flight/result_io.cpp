@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "sim/config/input_error.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 
@@ -156,11 +157,11 @@ RunInfo info_from(const JsonReader& result) {
                .version = result.text("version"),
                .build = result.text("build"),
                .inputs = {},
-               .scenario_file = result.text("scenario_file"),
+               .scenario_file = raw_name(result.text("scenario_file")),
                .command_line = result.text("command_line"),
                .scenario_yaml = {}};
   const JsonReader inputs = result.object("inputs");
-  for (const auto& [file, hash] : inputs.json().items()) info.inputs[file] = inputs.text(file.c_str());
+  for (const auto& [file, hash] : inputs.json().items()) info.inputs[raw_name(file)] = inputs.text(file.c_str());
   return info;
 }
 
@@ -173,8 +174,9 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
   json["seed"] = info.seed;
   json["version"] = info.version;
   json["build"] = info.build;
-  json["inputs"] = info.inputs;
-  json["scenario_file"] = info.scenario_file;
+  json["inputs"] = Json::object();
+  for (const auto& [file, hash] : info.inputs) json["inputs"][name_text(file)] = hash;
+  json["scenario_file"] = name_text(info.scenario_file);
   json["command_line"] = info.command_line;
   json["outcome"] = std::string(to_string(result.outcome));
   json["cause"] = result.cause;
@@ -268,7 +270,7 @@ RunResult result_from_json(const Json& json) {
 }
 
 std::string result_json(const RunInfo& info, const FlightResult& result) {
-  return to_json(info, result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(to_json(info, result), 2) + "\n";
 }
 
 Json read_json(const std::filesystem::path& file) {

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
+
+#include "sim/config/utf8.h"
 
 namespace hedgehop::sim {
 
@@ -24,9 +27,25 @@ std::string check_words(const CheckResult& check) {
 std::string shell_quoted(const std::string& word) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  const bool copies = utf8_text(word) == word && std::ranges::none_of(word, is_control);
+  const bool escapes = !copies && !word.ends_with('\n');  // $(...) removes line breaks at the end
+  std::string quoted;
+  for (std::string_view rest = word; !rest.empty();) {
+    const size_t length = first_character(rest).first;
+    const char c = rest[0];
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else if (escapes && (length == 0 || is_control(c))) {
+      quoted += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    } else if (escapes && (c == '\\' || c == '%')) {
+      quoted += std::string(2, c);
+    } else {
+      quoted += rest.substr(0, std::max<size_t>(1, length));
+    }
+    rest.remove_prefix(std::max<size_t>(1, length));
+  }
+  return escapes ? fmt::format("\"$(printf '{}')\"", quoted) : "'" + quoted + "'";
 }
 
 std::string markdown_cell(std::string_view text) {

@@ -21,7 +21,8 @@ std::string library_words(const Libraries& libraries);
 /// Returns the renderer without the vector width of the processor, which does not change images.
 std::string renderer_words(const Libraries& libraries);
 
-/// Returns a word, quoted for a POSIX shell if necessary.
+/// Returns a word, quoted for a POSIX shell if necessary. Bytes that are not UTF-8 and control characters are octal:
+/// "$(printf 'caf\351.yaml')".
 std::string shell_quoted(const std::string& word);
 
 /// Returns a text as a cell of a Markdown table, on one line and with its bars escaped.

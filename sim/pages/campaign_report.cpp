@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sim/batch/group_verdict.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/conduct.h"
@@ -156,7 +157,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
     both.insert(both.end(), earlier.records.begin(), earlier.records.end());
     data["against"]["mixture"] = mixture_words(both);
   }
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(data);
   write_file_whole(folder / "report.html", campaign_page(name_of(folder), text));
 }
 

@@ -11,6 +11,7 @@
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
 #include "sim/config/input_error.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
@@ -215,7 +216,7 @@ void write_leaderboard(const std::filesystem::path& folder, const Leaderboard& b
         {{"world", cell.world}, {"module", cell.module}, {"group", cell.group}, {"reason", cell.reason}});
   }
   std::filesystem::create_directories(folder);
-  write_file_whole(folder / kLeaderboardFile, json.dump(1) + "\n");
+  write_file_whole(folder / kLeaderboardFile, json_text(json, 1) + "\n");
 }
 
 void forget_leaderboard(const std::filesystem::path& folder) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/vehicle.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
 #include "sim/flight/json_reader.h"
@@ -36,7 +37,7 @@ Json still_data(const Scenario& scenario, const scenes::Scene& scene, double end
 }
 
 /// Returns the JSON text. Texts of a module may be invalid UTF-8.
-std::string replay_json(const Json& data) { return data.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string replay_json(const Json& data) { return json_text(data); }
 
 }  // namespace
 

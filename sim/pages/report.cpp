@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 #include "sim/pages/decimate.h"
@@ -187,9 +188,7 @@ Json against_json(const std::filesystem::path& run_folder, const RunRecord& run,
 std::string title(const RunRecord& run) { return run.result.info.scenario; }
 
 /// Returns the JSON text. Texts of a module may be invalid UTF-8.
-std::string text(const nlohmann::ordered_json& data) {
-  return data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
+std::string text(const nlohmann::ordered_json& data) { return json_text(data); }
 
 PageFilm find_film(const std::filesystem::path& run_folder) {
   const std::filesystem::path file = run_folder / "video.webm";

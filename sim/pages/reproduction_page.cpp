@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/config/utf8.h"
 #include "sim/flight/json_reader.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/flight_maps.h"
@@ -157,7 +158,7 @@ std::string reproduction_page(const Json& papers, const PageFacts& facts) {
   const Json data{{"version", facts.version}, {"build", facts.build + of_commit(facts)},
                   {"builds", facts.builds},   {"packages", facts.packages},
                   {"quick", facts.quick},     {"papers", papers}};
-  return reproduction_html("Papers reproduced", data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return reproduction_html("Papers reproduced", json_text(data));
 }
 
 }  // namespace hedgehop::sim

@@ -14,6 +14,7 @@
 #include "sim/batch/flight_table.h"
 #include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/result_io.h"
@@ -134,7 +135,7 @@ size_t write_runs_page(const fs::path& folder) {
   const size_t results = data["runs"].size() + data["campaigns"].size();
   if (results == 0) throw InputError(folder.string() + ": no result.json, batch.csv or sweep.csv in this folder tree");
   data["folder"] = fs::absolute(folder).lexically_normal().string();
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(data);
   write_file_whole(folder / "index.html", runs_html("Runs", text));
   return results;
 }

@@ -1,5 +1,7 @@
 #include "sim/record/labels_file.h"
 
+#include "sim/config/utf8.h"
+
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -16,7 +18,7 @@ std::string labels_json(const scenes::Scene& scene) {
     const std::string_view kind = scenes::kSemanticClassNames[static_cast<size_t>(instance.kind)];
     instances.push_back({{"id", instances.size() + 1}, {"name", instance.name}, {"class", std::string(kind)}});
   }
-  return Json{{"classes", classes}, {"instances", instances}}.dump(2) + "\n";
+  return json_text(Json{{"classes", classes}, {"instances", instances}}, 2) + "\n";
 }
 
 }  // namespace hedgehop::sim

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/run_record.h"
@@ -35,7 +36,7 @@ void write_result_files(const std::filesystem::path& run_folder, const RunInfo& 
   write_file_whole(run_folder / "scenario.yaml", info.scenario_yaml);
   write_file_whole(run_folder / "trajectory.csv", trajectory_csv(flight));
   write_file_whole(run_folder / "decisions.csv", decisions_csv(flight));
-  if (!flight.map.empty()) write_file_whole(run_folder / "map.json", map_data(flight.map).dump() + "\n");
+  if (!flight.map.empty()) write_file_whole(run_folder / "map.json", json_text(map_data(flight.map)) + "\n");
   write_file_whole(run_folder / "result.json",
                    result_json(info, flight.result));  // last: a run with a result is complete
 }

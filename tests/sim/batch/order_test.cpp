@@ -43,7 +43,7 @@ TEST(JudgingSeeds, AreDisjointFromTheTuningSeeds) {
 
 TEST(ShellQuoted, ShellReadsBackTheSameWord) {
   std::mt19937_64 generator(7);
-  const std::string letters = "ab '\"\\$`*?;&|<>(){}[]!#~=\t%\n";
+  const std::string letters = "ab7 '\"\\$`*?;&|<>(){}[]!#~=\t%\n\xe9\x1b\x7f";
   for (int i = 0; i < 50; ++i) {
     std::string word;
     for (uint64_t length = generator() % 12; length > 0; --length) word += letters[generator() % letters.size()];
