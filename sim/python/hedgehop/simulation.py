@@ -10,14 +10,23 @@ from . import _native
 from .results import read_table
 
 
+def _plain(value):
+    """Returns the numbers of NumPy as those of Python, and a path as its text."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError
+
+
 def overrides(values):
     """Returns the texts `key.path=value` for a dict of key paths, or for None."""
     texts = []
     for key, value in (values or {}).items():
-        if isinstance(value, np.generic):
-            value = value.item()
         try:
-            texts.append(f"{key}={json.dumps(value, allow_nan=False)}")
+            text = f"{key}={json.dumps(value, allow_nan=False, ensure_ascii=False, default=_plain)}"
+            text.encode()  # refuses half of a surrogate pair
+            texts.append(text)
         except (TypeError, ValueError):
             raise _native.InputError(f"set['{key}']: {value!r} is not a finite number, text, list or dict") from None
     return texts

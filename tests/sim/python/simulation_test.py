@@ -2,6 +2,7 @@
 
 import gc
 import math
+import pathlib
 import random
 import tempfile
 import threading
@@ -145,6 +146,16 @@ class BadCalls(unittest.TestCase):
             city().image("top")
         with self.assertRaisesRegex(ValueError, "allowed: grey, color, depth, labels"):
             city().image("front", "infrared")
+
+    def test_values_may_be_of_numpy_paths_and_any_text(self):
+        values = {"name": "flug 🚁", "description": np.str_("größe"), "start.north": np.float32(1.5), "start.east": np.array(2),
+                  "tags": np.array(["a", "b"]), "notes": pathlib.Path("a/b")}
+        text = hedgehop.Simulation(CITY, set={**SHORT, **values}).scenario_yaml
+        for line in ('name: "flug 🚁"', 'description: "größe"', "north: 1.5", "east: 2", 'tags: [a, b]', 'notes: a/b'):
+            self.assertIn(line, text)
+        for bad in (np.array([math.nan]), "\ud83d", object(), b"x", {1}):
+            with self.assertRaisesRegex(hedgehop.InputError, r"set\['name'\]: .* is not a finite number, text, list or dict"):
+                hedgehop.Simulation(CITY, set={"name": bad})
 
     def test_invalid_commands_do_not_affect_the_flight(self):
         sim = hedgehop.Simulation(CITY, set=STRAIGHT)
