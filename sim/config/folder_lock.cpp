@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ranges>
-#include <stdexcept>
 #include <string>
 
 #include "sim/config/input_error.h"
@@ -75,7 +74,8 @@ void FolderLock::hold(const fs::path& file, bool alone) {
     if (descriptor < 0) {
       const int error = errno;
       release();
-      throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)));
+      throw InputError(
+          fmt::format("{}: cannot write results: {}: {}", folder_.string(), file.string(), std::strerror(error)));
     }
     const int operation = (alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
     if (repeated([&] { return ::flock(descriptor, operation); }) != 0 && errno == EWOULDBLOCK) {

@@ -10,8 +10,8 @@ namespace hedgehop::sim {
 /// `.hedgehop.lock`, so a process that is killed leaves no lock behind.
 class FolderLock {
  public:
-  /// Creates the folder if necessary. Throws InputError with the other process if the folder is in use, and
-  /// std::runtime_error if the file cannot be created.
+  /// Creates the folder if necessary. Throws InputError with the other process if the folder is in use, or
+  /// if the file cannot be created.
   explicit FolderLock(const std::filesystem::path& folder);
   /// As above, for a named part of the folder, such as a shard: different parts may be in use at the same time, but not
   /// together with the whole folder.

@@ -50,6 +50,11 @@ TEST_F(LockTest, PartsExcludeTheWholeButNotEachOther) {
   EXPECT_EQ(fault(root / "a"), "");
 }
 
+TEST_F(LockTest, FolderWithoutAccessIsBadInput) {
+  fs::create_directories(root / "a/.hedgehop.lock");  // no file can have this name
+  EXPECT_THAT(fault(root / "a"), HasSubstr("a: cannot write results: "));
+}
+
 TEST_F(LockTest, LeavesNoFilesAndNoEmptyFolders) {
   { const FolderLock lock(root / "new/inner"); }
   EXPECT_TRUE(fs::is_empty(root));
