@@ -193,9 +193,9 @@ std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyO
                                     Interruption& interruption, CampaignProgress& progress) {
   OrderFlights flights(orders, options, Reuse::all, interruption);
   while (const std::optional<EndedFlight> ended = flights.next()) {
-    const bool flown = verdict_of(ended->record) != Verdict::not_flown;
-    progress.add(ended->record.order.id, flown ? outcome_words(ended->record) : failure_words(ended->record), flown,
-                 ended->reused);
+    const Verdict verdict = verdict_of(ended->record);
+    progress.add(ended->record.order.id, holds(verdict) ? outcome_words(ended->record) : failure_words(ended->record),
+                 verdict != Verdict::not_flown, ended->reused);
   }
   return flights.take_records();
 }
