@@ -78,7 +78,8 @@ Json run_row(const fs::path& folder, const std::string& name) {
   row["seed"] = result.info.seed;
   row["build"] = result.info.build;
   row["date"] = date_of(folder / "result.json");
-  row["outcome"] = std::string(to_string(flight.outcome));
+  const bool completed = flight.outcome == Outcome::timeout && !flight.goal_distance_m;  // its normal end
+  row["outcome"] = completed ? "completed" : std::string(to_string(flight.outcome));
   row["verdict"] = verdict_words(verdict_of(flight));
   row["flight_time_s"] = json_number(flight.flight_time_s);
   row["min_obstacle_clearance_m"] = json_number(flight.closest_obstacle.distance_m);

@@ -24,8 +24,9 @@ std::vector<FlightRecord> made_up(int count, uint64_t seed) {
   std::vector<FlightRecord> records;
   for (int i = 0; i < count; ++i) {
     FlightRecord record{.status = FlightRecord::Status::flown};
-    record.order = {
-        .id = "flights/" + std::to_string(i), .group = "point " + std::to_string(i), .scenario = "room.yaml"};
+    record.order = {.id = "flights/" + std::to_string(i),
+                    .group = "point p" + std::to_string(i) + " gain",
+                    .scenario = "room.yaml"};
     record.order.seed = static_cast<uint64_t>(i % 4);
     const bool collides = i % 2 == 1;
     FlightResult& result = record.result.emplace().flight;
@@ -122,6 +123,7 @@ TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedChec
     const text = (e) => e.textContent, groups = document.getElementById('groups');
     const rows = [...groups.querySelectorAll('tbody tr')].map((tr) => [...tr.children].map(text));
     return {rows: rows.length, hidden: groups.scrollHeight - groups.clientHeight, rates: rows.slice(1).map((row) => Number(row[2])),
+            ends: [6, 8].map((column) => rows.slice(1).reduce((sum, row) => sum + Number(row[column]), 0)),
             badge: text(document.querySelector('#head .badge')), tile: text(document.querySelectorAll('.tiles .tile')[2]),
             outcomes: [...new Set([...document.querySelectorAll('#flights tbody tr')].map((tr) => text(tr.children[3])))].sort()};)js");
   EXPECT_THAT(page.errors, IsEmpty());
@@ -130,11 +132,32 @@ TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedChec
   const auto rates = page.value.at("rates").get<std::vector<int>>();
   EXPECT_TRUE(std::ranges::is_sorted(rates));
   EXPECT_EQ(std::ranges::count(rates, 0), 33);
+  EXPECT_EQ(page.value.at("ends"), nlohmann::json::array({10, 0})) << "completed flights and timeouts of all points";
   EXPECT_THAT(page.value.at("badge").get<std::string>(),
               HasSubstr("33 of 60 did not passby the first failed check: collision: 30, unknown check: 3"));
   EXPECT_THAT(page.value.at("tile").get<std::string>(),
               HasSubstr("20 reached + 10 completed + 30 collided = 60 flights"));
   EXPECT_EQ(page.value.at("outcomes"), nlohmann::json::array({"collided", "completed", "reached"}));
+}
+
+TEST(CampaignInBrowser, ShowsTheNamesOfTheWorstFlightsNextToLongCauses) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(4, 7);
+  FlightResult& result = records[0].result->flight;
+  result.checks = {{.name = "max_tilt", .passed = false, .value = 31.0, .limit = 30.0, .unit = "deg"}};
+  result.cause = "max_tilt 31 deg at 4.00 s, must be <= 30 deg, in the turn at the end of the street";
+  write_sweep(folder.path(), records);
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const names = [...document.querySelectorAll('#worst button.name')], labels = [{name: 'flight_time_s', unit: 's'}, {name: 'gain', unit: 'm'}];
+    return [Math.max(...names.map((e) => e.offsetHeight)), document.getElementById('worst').textContent.includes('max_tilt 31'), ...labels.map(columnLabel)];)js",
+                               400);
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_LT(page.value[0], 45) << "two lines";
+  EXPECT_EQ(page.value[1], true);
+  EXPECT_EQ(page.value[2], "flight_time_s");
+  EXPECT_EQ(page.value[3], "gain, m");
 }
 
 TEST(CampaignInBrowser, ShowsLongNamesCompletely) {

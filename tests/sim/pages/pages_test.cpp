@@ -127,6 +127,41 @@ TEST(ReportInBrowser, StartsWithTheCauseOfATimeoutAndABarOfItsStatuses) {
   EXPECT_EQ(page.value[3], "go look ");
 }
 
+TEST(ReportInBrowser, WritesTheNameOfAFailedCheckUnchanged) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.outcome = Outcome::timeout;
+  flight.result.goal_distance_m.reset();
+  flight.result.cause = "floor_visited 0.07, must be >= 0.7";
+  flight.result.checks = {{"floor_visited", false, 0.07, 0.7, "", ">="}};
+  write_result_files(run.path(), {.scenario = "floor", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", "return document.querySelector('#story li').textContent;");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, "floor_visited 0.07, must be >= 0.7.");
+}
+
+/// The buttons of the plan cover no name, and no cell of the checks is cut.
+TEST(ReportInBrowser, FitsOnANarrowWindow) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.checks = {
+      {"min_clearance", false, -0.009013, 0.5, "m", ">=", 14.14, "distance at the end; minimum 64.8 m at 14.1 s"}};
+  write_result_files(run.path(), {.scenario = "narrow", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const box = (e) => e.getBoundingClientRect(), checks = document.getElementById('checks');
+    const [canvas, tools] = ['canvas', '.plan-tools'].map((name) => document.querySelector('#plan ' + name));
+    return [document.documentElement.scrollWidth, checks.scrollWidth - checks.clientWidth, box(tools).top >= box(canvas).bottom];)js",
+                               400);
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_LE(page.value[0], 400);
+  EXPECT_EQ(page.value[1], 0);
+  EXPECT_EQ(page.value[2], true);
+}
+
 TEST(ReportInBrowser, StartsWithTheFailedCheckOfAFlightToItsGoal) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;

@@ -161,6 +161,21 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
   EXPECT_EQ(folder.hedgehop("runs configs").status, 2);
 }
 
+TEST(RunAgainst, ShowsBothFilmsWithTheControlsBelow) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const CampaignFolder folder;
+  const std::string quick = " --no-report --renderer tiles ";
+  ASSERT_LE(folder.hedgehop("run tiny.yaml --out a" + quick).status, 1);
+  ASSERT_LE(folder.hedgehop("run tiny.yaml --out b" + quick).status, 1);
+  if (!std::filesystem::exists(folder.path() / "a/video.webm")) GTEST_SKIP() << "this build writes no films";
+  ASSERT_EQ(folder.hedgehop("report b --against a").status, 0);
+  const PageVisit page = visit(folder.path() / "b/report.html", R"js(
+    const films = [...document.querySelectorAll('#against video')];
+    return [films.length, films.filter((film) => film.controls).length, document.querySelectorAll('#against .film-bar').length];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::array({2, 0, 2}));
+}
+
 TEST(RunAgainst, NamesTheFirstDifferenceAndTheSettings) {
   HEDGEHOP_NEEDS_BROWSER();
   const CampaignFolder folder;

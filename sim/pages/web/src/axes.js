@@ -14,8 +14,6 @@ function numberAxis(label, values) {
 function wordAxis(label, words) {
   return {label, words, low: -0.5, high: words.length - 0.5, ticks: words.map((text, value) => ({value, text}))};
 }
-/** Name and unit of a column. */
-function columnLabel(column) { return column.unit ? `${column.name}, ${column.unit}` : column.name; }
 
 /** Returns a text in lines of this width, broken after spaces, underscores and slashes, or anywhere in a long word. */
 function wrappedLines(c, text, width_px) {

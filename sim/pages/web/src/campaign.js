@@ -91,7 +91,7 @@ function fillGroups(host, data, table) {
     ['median of minimum clearance, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const [i, g] of groups.entries()) {
-    const done = completed(g, i), row = addRow(body, [[g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
+    const done = completed(g, i), row = addRow(body, [[data.sweep ? g.group.replace(/^point \S+ /, '') : g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
       [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
       ...[g.reached, done, g.collided, g.timeout - done, g.broken, g.missing].map((n) => [String(n), 'number']),
       [fixed(g.min_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
@@ -130,7 +130,9 @@ function fillWorst(host, data, table, rows, on) {
     host.append(make('h3', '', kind.title));
     for (const row of kind.rows) {
       const line = host.appendChild(make('div', 'flight-line'));
-      line.append(flightButton(table, row, on), make('span', 'soft', kind.words(row)), linkTo(data, table, row), copyButton(table.value('command', row)));
+      const words = kind.words(row), long = words.length > 24;
+      line.classList.toggle('long', long);  // a sentence has a row of its own
+      line.append(flightButton(table, row, on), make('span', 'soft', words), linkTo(data, table, row), copyButton(table.value('command', row)));
     }
   }
 }
@@ -181,8 +183,7 @@ function main() {
   const data = JSON.parse(document.getElementById('data').textContent), table = new FlightTable(data);
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
-  if (data.sweep) for (const group of data.groups) group.group = group.group.replace(/^point \S+ /, '');
-  fillGroups(host('groups'), data, table);
+    fillGroups(host('groups'), data, table);
   if (data.search) {
     host('groups-card').remove();
     host('claims-card').remove();

@@ -95,6 +95,11 @@ function onChoose(element, action) {
   });
 }
 
+/** Returns the end of a name in this unit, such as "_mps". */
+function unitSuffix(unit) { return '_' + unit.replace('m/s', 'mps'); }
+/** Name and unit of a column. A name that ends in its unit needs no other. */
+function columnLabel({name, unit}) { return !unit || name.endsWith(unitSuffix(unit)) ? name : `${name}, ${unit}`; }
+
 /** Sets the text alternative of a drawing. */
 function describeDrawing(element, text) {
   element.setAttribute('role', 'img');

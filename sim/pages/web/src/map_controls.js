@@ -12,7 +12,8 @@ class MapControls {
 
   addTools() {
     const {map} = this;
-    const tools = map.host.appendChild(make('div', 'plan-tools'));
+    const tools = make('div', 'plan-tools');  // below the drawing, so that it covers no name
+    map.canvas.after(tools);
     const button = (text, title, action) => {
       const b = tools.appendChild(make('button', '', text));
       b.title = title;

@@ -15,7 +15,9 @@ class ConvergenceView {
       (failed ? `, ${failed} of them with a failed flight, which costs ${short(failure)} (crosses)` : '') + '.'));
     this.axes = new Axes(host.appendChild(make('div')), 260, {
       draw: (c) => this.draw(c), hover: (x) => this.lines(x), pick: (x) => { const i = this.at(x); if (i !== null) on.choosePoint(i); }});
-    this.axes.set(numberAxis('point, in the order of the search', [1, this.costs.length]), numberAxis('mean of ' + (column ? columnLabel(column) : minimize), this.costs));
+    const order = numberAxis('point, in the order of the search', [1, this.costs.length]);
+    order.ticks = this.costs.map((_, i) => ({value: i + 1, text: String(i + 1)}));
+    this.axes.set(order, numberAxis('mean of ' + (column ? columnLabel(column) : minimize), this.costs));
     host.append(make('div', 'plan-key', 'line: best so far'));
   }
   draw(c) {

@@ -3,7 +3,7 @@
 
 class ParallelView {
   constructor(host, points, choice, on) {
-    Object.assign(this, {points, on, chosen: null, height: 320});
+    Object.assign(this, {points, on, chosen: null, bottom: 280, font: '11px system-ui, "DejaVu Sans", sans-serif'});
     this.host = host.appendChild(make('div', 'plot-host'));
     this.canvas = this.host.appendChild(make('canvas'));
     this.tip = this.host.appendChild(make('div', 'tip'));
@@ -40,7 +40,7 @@ class ParallelView {
   x(k) { return 46 + k * (this.host.clientWidth - 92) / (this.axes.length - 1); }
   y(k, value) {
     const {low, high} = this.axes[k].axis;
-    return this.height - 40 - (value - low) / (high - low) * (this.height - 56);
+    return this.bottom - (value - low) / (high - low) * (this.bottom - 16);
   }
   line(c, i) {
     c.beginPath();
@@ -50,10 +50,16 @@ class ParallelView {
   draw() {
     const width = this.host.clientWidth, dpr = window.devicePixelRatio || 1;
     if (!width) return;
+    const c = this.canvas.getContext('2d');
+    c.font = this.font;
+    // Whole names, in as many lines as they need.
+    const room = Math.min(88, (width - 92) / (this.axes.length - 1) - 6);
+    const names = this.axes.map(({name}) => wrappedLines(c, name.replace(/^.*\.(?=[^.]+$)/, ''), room));
+    const height = this.bottom + 10 + 13 * Math.max(...names.map(({length}) => length));
     this.canvas.width = Math.round(width * dpr);
-    this.canvas.height = Math.round(this.height * dpr);
-    this.canvas.style.height = this.height + 'px';
-    const c = this.canvas.getContext('2d'), ramp = makeRamp(themeColor('ramp')), figures = this.points.of(this.choice.column);
+    this.canvas.height = Math.round(height * dpr);
+    this.canvas.style.height = height + 'px';
+    const ramp = makeRamp(themeColor('ramp')), figures = this.points.of(this.choice.column);
     c.setTransform(dpr, 0, 0, dpr, 0, 0);
     const [low, high] = this.range, count = this.points.points.length;
     c.globalAlpha = count > 300 ? 0.25 : count > 60 ? 0.5 : 0.8;
@@ -70,19 +76,18 @@ class ParallelView {
       c.lineWidth = 3;
       this.line(c, i);
     }
-    this.drawAxes(c, width);
+    this.drawAxes(c, names);
   }
-  drawAxes(c, width) {
-    c.font = '11px system-ui, "DejaVu Sans", sans-serif';
+  drawAxes(c, names) {
+    c.font = this.font;
     c.textAlign = 'center';
-    const room = (width - 92) / (this.axes.length - 1) - 6;
-    this.axes.forEach(({name, axis}, k) => {
+    this.axes.forEach(({axis}, k) => {
       const x = this.x(k);
       c.strokeStyle = themeColor('soft');
       c.lineWidth = 1;
       c.beginPath();
       c.moveTo(x, 16);
-      c.lineTo(x, this.height - 40);
+      c.lineTo(x, this.bottom);
       c.stroke();
       const ticks = axis.ticks ?? niceTicks(axis.low, axis.high, 5).values.map((value) => ({value, text: short(Math.abs(value) < 1e-12 ? 0 : value)}));
       for (const {value, text} of ticks) {
@@ -95,9 +100,7 @@ class ParallelView {
         c.fillText(text, x, y + 4);
       }
       c.fillStyle = themeColor('soft');
-      let shown = name.replace(/^.*\.(?=[^.]+$)/, '');
-      while (shown.length > 4 && c.measureText(shown).width > room) shown = shown.slice(0, -2) + '…';
-      c.fillText(shown, x, this.height - (k % 2 && room < 90 ? 4 : 18));
+      names[k].forEach((line, i) => c.fillText(line, x, this.bottom + 20 + 13 * i));
     });
   }
   at(px, py) {

@@ -76,9 +76,10 @@ function fillChecks(host, checks) {
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
   for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
     const measure = (v) => measured(v, unit);
-    addRow(table, [[passed ? '✓ holds' : '✕ fails', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
+    addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);
+    table.lastChild.firstChild.append(make('span', 'word', passed ? ' holds' : ' fails'));
     if (passed || !cause) continue;
     addRow(table, [['', ''], [cause, 'soft']]);
     table.lastChild.lastChild.colSpan = 4;
@@ -89,21 +90,23 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
   host.append(make('h2', '', 'Details'));
   addCommand(host, result.command_line);
 
-  const facts = host.appendChild(make('div', 'facts'));
-  const add = (title, rows) => {
-    const table = facts.appendChild(make('div', 'scroll')).appendChild(make('table'));
+  const facts = host.appendChild(make('div', 'facts')), first = facts.appendChild(make('div', 'stack'));
+  const add = (title, rows, place = facts) => {
+    const table = place.appendChild(make('div', 'scroll')).appendChild(make('table'));
     addRow(table, [[title, ''], ['', 'number']], 'th');
     rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
   };
   const stage = (s) => s ? `${measured(s.median, 'ms', 3)}, 95 % below ${measured(s.p95, 'ms', 3)}` : '–';
-  add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]]);
+  add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]], first);
   add('wall time, median', [['decision', stage(result.decision_ms)], ['images of all cameras', stage(result.render_ms)],
-    ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]]);
-  const metrics = Object.entries(result.metrics);
-  if (metrics.length) {
-    add('metrics of the module', metrics.map(([name, value]) =>
-      [name.replaceAll('_', ' '), measured(value, result.metric_units?.[name] || '')]));
-  }
+    ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]], first);
+  const metrics = Object.entries(result.metrics).map(([name, value]) => {
+    const unit = result.metric_units?.[name] ?? '';
+    const shown = unit && name.endsWith(unitSuffix(unit)) ? name.slice(0, -unitSuffix(unit).length) : name;
+    return [shown.replaceAll('_', ' '), measured(value, unit)];
+  });
+  const half = Math.max(8, Math.ceil(metrics.length / 2));
+  for (const rows of [metrics.slice(0, half), metrics.slice(half)]) if (rows.length) add('metric', rows);
   const scenario = host.appendChild(make('details'));
   scenario.append(make('summary', '', 'Resolved scenario'), make('pre', '', scenario_yaml));
 }

@@ -25,7 +25,7 @@ class RunAgainst {
     const table = host.appendChild(make('table')), {result} = this.data, other = this.against.result;
     addRow(table, [['', ''], ['this run', 'number'], ['other run', 'number']], 'th');
     const row = (name, of) => addRow(table, [[name, ''], [of(result), 'number'], [of(other), 'number']]);
-    row('outcome', (r) => r.outcome);
+    row('outcome', (r) => r.outcome === 'timeout' && r.goal_distance_m === null ? 'completed' : r.outcome);
     row('checks that hold', (r) => `${r.checks.filter((c) => c.passed).length} of ${r.checks.length}`);
     row('seed', (r) => String(r.seed));
     row('flight time, s', (r) => fixed(r.flight_time_s, 1));
@@ -78,10 +78,11 @@ class RunAgainst {
     const pair = host.appendChild(make('div', 'pair halves films'));
     const add = (words, src) => {
       const box = pair.appendChild(make('div')), video = make('video');
-      video.controls = video.muted = video.playsInline = true;
+      video.muted = video.playsInline = true;
       video.src = src;
       video.setAttribute('aria-label', `camera images of ${words}`);
       box.append(make('h3', '', words), video);
+      new FilmView(video);
       return video;
     };
     const own = add('this run', film.src);

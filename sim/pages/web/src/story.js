@@ -38,8 +38,7 @@ function storyLines({result, path}) {
     lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${result.cause}`);
   } else {
     const cause = result.cause || 'ended before its goal or failed a check';  // results of earlier versions name no cause
-    const sentence = result.outcome === 'timeout' ? cause[0].toUpperCase() + cause.slice(1) : cause;
-    lines.push(sentence + '.');
+    lines.push((cause.startsWith('in ') ? 'I' + cause.slice(1) : cause) + '.');  // a cause may begin with the name of a check
   }
   if (result.goal_missed_unchecked) lines.push('No check requires the goal; to require it, add {check: reached_goal} to the checks.');
   const status = path.statuses[path.status[end]];
