@@ -24,7 +24,7 @@ using Channel = CameraConfig::Channel;
 
 class Validator {
  public:
-  Validator(Scenario& scenario, ModuleSource source) : scenario_(scenario), source_(source) {}
+  Validator(Scenario& scenario, ModuleOwner source) : scenario_(scenario), source_(source) {}
 
   /// Returns whether every field is within its bounds.
   bool bounds() {
@@ -105,7 +105,7 @@ class Validator {
   }
 
   void module() {
-    if (source_ == ModuleSource::scenario) own_module();
+    if (source_ == ModuleOwner::scenario) own_module();
     if (const std::optional<TakeoverConfig>& takeover = scenario_.takeover) {
       if (takeover->at_s >= scenario_.duration_s) {
         add("takeover.at",
@@ -171,7 +171,7 @@ class Validator {
 
   Validation take() {
     Validation found{std::move(errors_), std::nullopt};
-    const bool has_module = module_ || source_ == ModuleSource::caller || scenario_.avoidance.is_foreign();
+    const bool has_module = module_ || source_ == ModuleOwner::caller || scenario_.avoidance.is_foreign();
     if (vehicle_ && wind_ && avionics_ && has_module) {
       found.parts.emplace(AircraftParts{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)},
                           std::move(module_));
@@ -220,7 +220,7 @@ class Validator {
   void add_all(std::vector<FieldError> errors) { std::ranges::move(errors, std::back_inserter(errors_)); }
 
   Scenario& scenario_;
-  ModuleSource source_;
+  ModuleOwner source_;
   std::vector<FieldError> errors_;
   std::optional<dynamics::Vehicle> vehicle_;
   std::optional<dynamics::air::Wind> wind_;
@@ -248,7 +248,7 @@ std::string signal_fault(std::span<const avoidance::Signal> signals) {
   return "";
 }
 
-Validation validate(Scenario& scenario, ModuleSource source) {
+Validation validate(Scenario& scenario, ModuleOwner source) {
   Validator validator(scenario, source);
   if (!validator.bounds()) return validator.take();
   if (!validator.mounts()) return validator.take();

@@ -18,11 +18,11 @@ struct Validation {
 };
 
 /// Source of the module that flies. A module from the caller is not validated, and the parts then contain no module.
-enum class ModuleSource { scenario, caller };
+enum class ModuleOwner { scenario, caller };
 
 /// Checks the bounds of every field, mounts the rig (mount_rig()), then checks that the fields fit each other and that
 /// each part can be built. Returns all errors and the parts.
-Validation validate(Scenario& scenario, ModuleSource source = ModuleSource::scenario);
+Validation validate(Scenario& scenario, ModuleOwner source = ModuleOwner::scenario);
 
 /// Returns why the signals of a module cannot be columns of decisions.csv: a name that is no name, occurs twice, or is
 /// one of the record's own columns; "" if they can.

@@ -150,7 +150,7 @@ Simulation::Simulation(LoadedScenario loaded, FlightWatcher* watcher, OutsideAut
 }
 
 Simulation::Simulation(Scenario scenario, ModuleMaker module, FlightWatcher* watcher, OutsideAutopilot* outside) {
-  Validation found = validate(scenario, module ? ModuleSource::caller : ModuleSource::scenario);
+  Validation found = validate(scenario, module ? ModuleOwner::caller : ModuleOwner::scenario);
   if (!found.errors.empty()) throw InputError(std::move(found.errors));
   FlightParts parts = *std::move(found.parts);
   impl_ = std::make_unique<Impl>(std::move(scenario), std::move(parts), std::move(module), watcher, outside);
