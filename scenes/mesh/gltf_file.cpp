@@ -43,7 +43,7 @@ Chunks chunks_of(std::span<const uint8_t> file) {
   constexpr size_t kHeader = 12, kChunkHeader = 8;
   constexpr uint32_t kVersion = 2, kJson = 0x4e4f534a, kBinary = 0x004e4942;
   if (file.size() < kHeader || std::memcmp(file.data(), "glTF", 4) != 0) fail_gltf("it is not a binary glTF");
-  if (word_at(file, 4) != kVersion) fail_gltf("it is a binary glTF of another version than 1 and 2");
+  if (word_at(file, 4) != kVersion) fail_gltf("it is a binary glTF of another version than 2");
   Chunks found;
   for (size_t at = kHeader; at + kChunkHeader <= file.size();) {
     const size_t bytes = word_at(file, at);
@@ -101,18 +101,17 @@ GltfFile::GltfFile(const std::filesystem::path& file) : folder_(file.parent_path
   files_.insert(file.lexically_normal());
   std::span<const uint8_t> text = bytes, binary;
   const bool is_binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-  if (is_binary && word_at(bytes, 4) == 1) {
-    constexpr size_t kOldHeader = 20;
-    if (word_at(bytes, 12) + kOldHeader > bytes.size()) fail_gltf("it ends too early");
-    text = text.subspan(kOldHeader, word_at(bytes, 12));
-  } else if (is_binary) {
+  if (is_binary) {
     const Chunks chunks = chunks_of(bytes);
     text = chunks.json;
     binary = chunks.binary;
   }
   json_ = Json::parse(text.begin(), text.end());
+  if (!json_.is_object()) fail_gltf("its JSON is no object");
   const Json asset = json_.value("asset", Json::object());
-  if (!asset.value("version", "1.0").starts_with("2.")) throw OldGltf(length("nodes"));
+  const auto version = asset.is_object() ? asset.find("version") : asset.end();
+  const bool is_new = version != asset.end() && version->is_string() && version->get<std::string>().starts_with("2.");
+  if (!is_new) throw OldGltf(length("nodes"));
   buffers_.emplace_back(binary.begin(), binary.end());  // the first buffer, if it has no URI
   read_buffers();
 }
@@ -242,14 +241,18 @@ std::vector<Value> GltfFile::values(const Json& accessor, size_t components) con
 
 GltfNumbers GltfFile::numbers(size_t index) const {
   const Json& accessor = element("accessors", index);
-  const size_t components = components_of(accessor.at("type").get<std::string>());
-  return {values<float>(accessor, components), components};
+  return in_element("accessors", index, [&]() -> GltfNumbers {
+    const size_t components = components_of(accessor.at("type").get<std::string>());
+    return {values<float>(accessor, components), components};
+  });
 }
 
 std::vector<uint32_t> GltfFile::indices(size_t index) const {
   const Json& accessor = element("accessors", index);
-  if (components_of(accessor.at("type").get<std::string>()) != 1) fail_gltf("indices are not of the type SCALAR");
-  return values<uint32_t>(accessor, 1);
+  return in_element("accessors", index, [&] {
+    if (components_of(accessor.at("type").get<std::string>()) != 1) fail_gltf("indices are not of the type SCALAR");
+    return values<uint32_t>(accessor, 1);
+  });
 }
 
 }  // namespace hedgehop::scenes::mesh

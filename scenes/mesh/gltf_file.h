@@ -47,6 +47,17 @@ class GltfFile {
   /// Returns the bytes of a buffer view.
   std::span<const uint8_t> view(size_t index) const;
 
+  /// Returns the result of `read`. A value of a wrong type, and a missing one, is a fault of this element.
+  template <class Read>
+  static auto in_element(const char* list, size_t index, const Read& read) {
+    try {
+      return read();
+    } catch (const Json::exception&) {
+      fail_gltf(std::string("its ") + list + "[" + std::to_string(index) +
+                "] lacks a value or has one of a wrong type");
+    }
+  }
+
   /// Returns the bytes of a data URI; empty if the URI is not one.
   static std::optional<std::vector<uint8_t>> data_of(std::string_view uri);
 

@@ -73,7 +73,7 @@ class GltfModel {
     const size_t materials = file_.length("materials");
     GltfMaterials reader(file_, model_.unrendered);
     for (size_t i = 0; i <= materials; ++i) {  // the last one is the default
-      materials_.push_back(reader.read(i));
+      materials_.push_back(GltfFile::in_element("materials", i, [&] { return reader.read(i); }));
       model_.materials.push_back(materials_.back().look);
     }
     parts_.resize(materials_.size());
@@ -128,20 +128,24 @@ class GltfModel {
       const Json& node = file_.element("nodes", index);
       if (is_read[index]) fail_gltf("its nodes[" + std::to_string(index) + "] has two parents");
       is_read[index] = true;
-      const Eigen::Affine3d here = parent * transform_of(node);
-      if (node.contains("mesh")) add_mesh(GltfFile::count_at(node, "mesh"), here);
-      if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
-        model_.unrendered.insert("instances");
-      add(node.value("children", std::vector<size_t>{}), here);
+      GltfFile::in_element("nodes", index, [&, parent = parent] {
+        const Eigen::Affine3d here = parent * transform_of(node);
+        if (node.contains("mesh")) add_mesh(GltfFile::count_at(node, "mesh"), here);
+        if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
+          model_.unrendered.insert("instances");
+        add(node.value("children", std::vector<size_t>{}), here);
+      });
     }
   }
 
   void add_mesh(size_t index, const Eigen::Affine3d& transform) {
     const auto [at, is_new] = meshes_.try_emplace(index);
     if (is_new) {
-      for (const Json& primitive : file_.element("meshes", index).at("primitives")) {
-        if (std::optional<Primitive> triangles = read_primitive(primitive)) at->second.push_back(*std::move(triangles));
-      }
+      GltfFile::in_element("meshes", index, [&, &primitives = at->second] {
+        for (const Json& json : file_.element("meshes", index).at("primitives")) {
+          if (std::optional<Primitive> triangles = read_primitive(json)) primitives.push_back(*std::move(triangles));
+        }
+      });
     }
     for (const Primitive& primitive : at->second) add_primitive(primitive, transform);
   }

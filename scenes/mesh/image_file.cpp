@@ -27,7 +27,9 @@ std::string with_slashes(std::string name) {
   return name;
 }
 
-std::string without_quotes(const std::string& name) {
+// Returns a name without quotes and without the spaces at its end, which a comment of a PLY can have.
+std::string plain_name(std::string name) {
+  name.erase(name.find_last_not_of(" \t\r") + 1);
   const bool quoted = name.size() >= 2 && name.front() == '"' && name.back() == '"';
   return quoted ? name.substr(1, name.size() - 2) : name;
 }
@@ -109,7 +111,7 @@ cv::Mat opacity_of(const Material& material, const cv::Mat& image, int size_px, 
 }  // namespace
 
 std::optional<fs::path> file_named(const std::string& name, const std::vector<fs::path>& folders, bool is_uri) {
-  const std::string plain = without_quotes(name);
+  const std::string plain = plain_name(name);
   std::vector<std::string> spellings{plain, with_slashes(plain), percent_decoded(plain),
                                      with_slashes(percent_decoded(plain))};
   if (is_uri) std::ranges::rotate(spellings, spellings.begin() + 2);

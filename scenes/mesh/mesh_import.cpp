@@ -35,7 +35,9 @@ std::string add_mesh(const ImportConfig& c, const Eigen::Vector3d& origin_ENU, S
   MeshBuilder builder("opaque");
   builder.begin_instance(c.name, c.kind);
   if (placed.add({c.name, to_W, true, is_solid}, builder, scene) == 0) {
-    throw std::invalid_argument("it has no triangles");
+    const bool any =
+        std::ranges::any_of(placed.model().parts, [](const Part& part) { return !part.body.faces.empty(); });
+    throw std::invalid_argument(any ? "its triangles have no area" : "it has no triangles");
   }
   scene.meshes.push_back(builder.finish());
   return placed.remarks();

@@ -122,6 +122,11 @@ std::string_view json_of_glb(std::string_view file) {
   return file.substr(kHeader, number_at(file, 12));
 }
 
+bool is_old_binary(std::string_view glb) {
+  constexpr size_t kVersionAt = 4;
+  return glb.starts_with("glTF") && glb.size() >= 2 * kVersionAt && number_at(glb, kVersionAt) == 1;
+}
+
 /// Returns whether a binary glTF has the bytes that it announces: a header of 12 bytes, then chunks, each with a length
 /// and a type before its bytes.
 bool has_chunks(std::string_view glb) {
@@ -176,9 +181,13 @@ std::string require_importable(const std::filesystem::path& mesh) {
   stream.read(text.data(), std::ssize(text));
   text.resize(static_cast<size_t>(stream.gcount()));
   refuse_if(!stream.is_open() || stream.bad(), "it cannot be read");
+  const bool is_gltf = suffix == ".gltf" || suffix == ".glb";
+  const bool is_utf16 = text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe");
+  refuse_if((suffix == ".obj" || is_gltf) && is_utf16, "it is text in UTF-16; valid: UTF-8");
+  refuse_if(is_gltf && is_old_binary(text), "it is a binary glTF of version 1; valid: version 2");
   refuse_if(suffix == ".glb" && !has_chunks(text), "it is no binary glTF 2, or is shorter than its chunks");
   const std::string too_deep = "is nested deeper than " + std::to_string(kMaxNesting);
-  if (suffix == ".gltf" || suffix == ".glb") {
+  if (is_gltf) {
     const bool is_binary = text.starts_with("glTF");
     refuse_if(json_nesting(is_binary ? json_of_glb(text) : text) > kMaxNesting, "its JSON " + too_deep);
   }
@@ -187,7 +196,7 @@ std::string require_importable(const std::filesystem::path& mesh) {
   refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
   refuse_if(suffix == ".obj" && faces(text) > kMaxFaces, "it has more than " + std::to_string(kMaxFaces) + " faces");
-  return text;
+  return suffix == ".obj" && text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
 }
 
 namespace {
@@ -262,13 +271,10 @@ void require_bounded(const aiScene& model) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns the importer's message, in plain words for files without faces.
 std::string cause_of(const std::string& message) {
-  for (const char* no_faces : {"aiScene::mNumMeshes is 0", "contains no faces", "is a POINT"}) {
+  for (const char* no_faces : {"aiScene::mNumMeshes is 0", "contains no faces", "contains no vertices", "is a POINT",
+                               "file is empty", "File came out empty", "Unable to extract mesh data"}) {
     if (message.find(no_faces) != std::string::npos) return "it has no triangles";
   }
   return message;

@@ -150,7 +150,8 @@ void set_color(std::string_view rest, Material& look) {
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  return text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
 }
 
 void read_mtl(const std::filesystem::path& file, const std::filesystem::path& obj_folder, ObjMaterials& found) {
@@ -202,14 +203,25 @@ std::vector<std::string> libraries_of(std::string_view rest, const std::filesyst
   return any ? names : std::vector{std::string(whole)};
 }
 
+// Returns whether the first corner of a face names a position, an image coordinate and a normal: "1/1/1".
+bool has_uv_index(std::string_view corners) {
+  const std::string_view corner = take_word(corners);
+  const size_t first = corner.find('/'), second = corner.rfind('/');
+  return first != std::string_view::npos && second > first + 1;
+}
+
 }  // namespace
 
 ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view text) {
   ObjMaterials found;
   std::string libraries, current;
   std::set<std::string> used;
+  bool has_uvs = false, has_normals = false, refers_to_uvs = false;
   const std::filesystem::path folder = obj.parent_path();
   for_each_line(text, [&](std::string_view keyword, std::string_view rest) {
+    has_uvs = has_uvs || keyword == "vt";
+    has_normals = has_normals || keyword == "vn";
+    if (keyword == "f") refers_to_uvs = refers_to_uvs || has_uv_index(rest);
     if (keyword == "usemtl") current = std::string(rest);
     if (keyword == "f" && !current.empty()) used.insert(current);
     if (keyword != "mtllib") return;
@@ -223,6 +235,9 @@ ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view te
       libraries += (libraries.empty() ? "'" : ", '") + name + "'";
     }
   });
+  if (refers_to_uvs && has_normals && !has_uvs) {  // the importer would drop these faces
+    throw std::invalid_argument("its faces refer to image coordinates, but it has none (vt)");
+  }
   for (const std::string& name : used) {
     // Exporters write these names for faces without a material.
     if (found.by_name.contains(name) || name == "None" || name == "(null)") continue;

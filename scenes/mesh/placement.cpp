@@ -25,7 +25,7 @@ Polyhedron faces_W(const Polyhedron& body, const Eigen::Affine3d& to_W) {
   for (const Vector3d& corner : body.corners) result.corners.push_back(to_W * corner);
   for (const auto& [a, b, c] : body.faces) {
     const Vector3d across = (result.corners[b] - result.corners[a]).cross(result.corners[c] - result.corners[a]);
-    if (across.allFinite() && across.norm() > 0.0) result.faces.push_back({a, b, c});
+    if (across.norm() > 0.0) result.faces.push_back({a, b, c});
   }
   return result;
 }
@@ -114,11 +114,14 @@ const PlacedModel::Texture& PlacedModel::texture_of(size_t material, Scene& scen
 size_t PlacedModel::add(const Place& place, MeshBuilder& builder, Scene& scene) {
   size_t count = 0;
   for (const Part& part : model_.parts) {
+    if (part.body.faces.empty()) continue;
+    if (!std::ranges::all_of(part.body.corners, [](const Vector3d& corner) { return corner.allFinite(); })) {
+      throw std::invalid_argument("it has corners that are not finite");
+    }
     Polyhedron body = faces_W(part.body, place.to_W);
     if (body.faces.empty()) continue;
     count += body.faces.size();
     for (const Vector3d& corner : body.corners) {
-      if (!corner.allFinite()) throw std::invalid_argument("it has corners that are not finite");
       if (corner.cwiseAbs().maxCoeff() > kMaxCoordinateM) {
         throw std::invalid_argument("it has corners farther than 100 km from the origin; 'origin' can be subtracted");
       }

@@ -19,6 +19,16 @@ inline std::string base64(const std::vector<uint8_t>& bytes) {
   return text;
 }
 
+inline const std::string kOneNode = R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}])";
+
+/// Returns the mesh of one primitive. @param rest  more keys of the primitive.
+inline std::string mesh_of(const std::string& attributes, const std::string& indices, const std::string& rest = "") {
+  return R"("meshes": [{"primitives": [{"attributes": {)" + attributes + R"(}, "indices": )" + indices +
+         R"(, "material": 0)" + rest + "}]}]";
+}
+
+constexpr int kByte = 5120, kUByte = 5121, kShort = 5122, kUShort = 5123, kFloat = 5126;  ///< component types
+
 /// Writes glTF files. Accessors are added in order; the rest is JSON.
 struct GltfText {
   std::vector<uint8_t> bytes;

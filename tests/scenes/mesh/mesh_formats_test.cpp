@@ -75,6 +75,8 @@ TEST_F(MeshFormats, ReadsStl) {
   const Eigen::AlignedBox3f box = bounds(imported({.file = file, .up = ImportConfig::Up::z}));
   EXPECT_LT((box.min() - Eigen::Vector3f(0, 0, -1)).norm(), 1e-6f);
   EXPECT_LT((box.max() - Eigen::Vector3f(3, 2, -1)).norm(), 1e-6f);
+  EXPECT_THAT([&] { imported({.file = write("empty.stl", "solid a\nendsolid a\n")}); },
+              ThrowsMessage<E>(HasSubstr("empty.stl': it has no triangles")));
 }
 
 TEST_F(MeshFormats, ReadsPlyWithItsColors) {
@@ -119,7 +121,7 @@ TEST_F(MeshFormats, ReadsColladaWithItsUnitAndAxis) {
   EXPECT_THAT([&] { imported({.file = write("deep.dae", deep)}); },
               ThrowsMessage<E>(HasSubstr("its XML is nested deeper than 200")));
   EXPECT_THAT([&] { imported({.file = write("empty.dae", "<?xml version=\"1.0\"?><COLLADA/>")}); },
-              ThrowsMessage<E>(HasSubstr("empty.dae': ")));
+              ThrowsMessage<E>(HasSubstr("empty.dae': it has no triangles")));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "scenes/mesh/image_file.h"
 #include "tests/scenes/mesh/imported_files.h"
 
 namespace hedgehop::scenes::mesh {
@@ -60,6 +61,27 @@ TEST_F(ObjMaterial, AMissingFileOrMaterialIsAnError) {
               ThrowsMessage<E>(HasSubstr("its material 'paint' is in no material file; it names none (mtllib)")));
 }
 
+TEST_F(ObjMaterial, TextsMayBeginWithTheMarkOfUtf8) {
+  const std::string mark = "\xef\xbb\xbf";
+  write("quad.mtl", mark + "newmtl paint\nKd 1 0 0\n");
+  const Scene scene = imported({.file = write("quad.obj", mark + quad())});
+  EXPECT_EQ(color_at(scene, 0.5), cv::Vec3b(255, 0, 0));
+}
+
+TEST_F(ObjMaterial, RefusesFilesWithoutVisibleFacesWithTheReason) {
+  const auto import_of = [&](const std::string& text) {
+    return [this, file = write("bad.obj", text)] { imported({.file = file}); };
+  };
+  const std::string corners = "v 0 0 0\nv 1 2 3\nv -1 -2 -3\nv 0 1 0\n";
+  const std::string utf16("\xfe\xff\0v\0 \0001", 8);
+  EXPECT_THAT(import_of(utf16), ThrowsMessage<E>(HasSubstr("bad.obj': it is text in UTF-16; valid: UTF-8")));
+  EXPECT_THAT(import_of(corners), ThrowsMessage<E>(HasSubstr("it has no triangles")));
+  EXPECT_THAT(import_of(corners + "f 1 2 3\n"), ThrowsMessage<E>(HasSubstr("its triangles have no area")));
+  EXPECT_THAT(import_of(corners + "vn 0 0 1\nf 1/1/1 2/1/1 4/1/1\n"),
+              ThrowsMessage<E>(HasSubstr("its faces refer to image coordinates, but it has none (vt)")));
+  EXPECT_NO_THROW(import_of(corners + "vn 0 0 1\nf 1//1 2//1 4//1\n")());
+}
+
 TEST_F(ObjMaterial, ImagesAreFoundByTheRulesOfTheFormat) {
   for (const auto& [statement, file] : {std::pair{"map_Kd textures\\wall tex.png", "textures/wall tex.png"},
                                         {"map_Kd 50%25.png", "50%25.png"},
@@ -71,6 +93,8 @@ TEST_F(ObjMaterial, ImagesAreFoundByTheRulesOfTheFormat) {
     EXPECT_EQ(mesh_files(folder_ / "quad.obj").count(folder_ / file), 1u) << statement;
     std::filesystem::remove(folder_ / file);
   }
+  write_image("fuse.png");
+  EXPECT_EQ(file_named("fuse.png \r", {folder_}, true), folder_ / "fuse.png");  // as a PLY's comment can end
 }
 
 TEST_F(ObjMaterial, ImagesAreRelativeToTheMaterialFile) {
