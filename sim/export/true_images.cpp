@@ -2,21 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "sim/record/image_file.h"
 
 namespace hedgehop::sim {
 cv::Mat kitti_flow(const cv::Mat& flow_px) {
-  constexpr float kUnitsPerPixel = 64.0f, kZero = 32768.0f;
+  constexpr double kUnitsPerPixel = 64.0, kZero = 32768.0, kEnd = 65536.0;
   cv::Mat coded(flow_px.size(), CV_16UC3, cv::Scalar::all(0));
   for (int v = 0; v < flow_px.rows; ++v) {
-    for (int u = 0; u < flow_px.cols; ++u) {
-      const auto& flow = flow_px.at<cv::Vec2f>(v, u);
-      const float right = std::round(kUnitsPerPixel * flow[0] + kZero),
-                  down = std::round(kUnitsPerPixel * flow[1] + kZero);
-      const bool fits = right >= 0.0f && right <= 65535.0f && down >= 0.0f && down <= 65535.0f;  // false for NaN
-      if (fits) coded.at<cv::Vec3w>(v, u) = {static_cast<uint16_t>(right), static_cast<uint16_t>(down), 1};
+    const float* flow = flow_px.ptr<float>(v);
+    uint16_t* out = coded.ptr<uint16_t>(v);
+    for (int u = 0; u < flow_px.cols; ++u, flow += 2, out += 3) {
+      const double right = kUnitsPerPixel * flow[0] + kZero + 0.5, down = kUnitsPerPixel * flow[1] + kZero + 0.5;
+      const bool fits = right >= 0.0 && right < kEnd && down >= 0.0 && down < kEnd;  // false for NaN
+      if (!fits) continue;
+      out[0] = static_cast<uint16_t>(right);
+      out[1] = static_cast<uint16_t>(down);
+      out[2] = 1;
     }
   }
   return coded;

@@ -24,6 +24,13 @@ class RayLengths {
   vision::camera::PinholeCamera camera_;
 };
 
+/// Rounds as std::lround, without a call for each level.
+/// @param level  >= 0.
+uint8_t rounded(double level) {
+  const int whole = static_cast<int>(level);
+  return static_cast<uint8_t>(level - whole >= 0.5 ? whole + 1 : whole);
+}
+
 }  // namespace
 
 double transmittance(double distance_m, double visibility_m) {
@@ -44,7 +51,7 @@ void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, cons
       const double share = transmittance(z_m * lengths.at(u, v), sky.visibility_m);
       for (int k = 0; k < channels; ++k) {
         const double hazy = air[static_cast<size_t>(k)] + share * (level[k] - air[static_cast<size_t>(k)]);
-        level[k] = static_cast<uint8_t>(std::lround(hazy));
+        level[k] = rounded(hazy);
       }
     }
   }

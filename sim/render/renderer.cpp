@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -60,8 +61,10 @@ class Renderer::Impl {
       draw_flow(view, out);
     } else if (view.channel == ImageChannel::semantic) {
       draw(view, ImageChannel::labels, out);
-      for (auto label = out.begin<int>(); label != out.end<int>(); ++label)
-        *label = classes_[static_cast<size_t>(*label)];
+      for (int v = 0; v < out.rows; ++v) {
+        for (int& label : std::span(out.ptr<int>(v), static_cast<size_t>(out.cols)))
+          label = classes_[static_cast<size_t>(label)];
+      }
     } else {
       draw(view, view.channel, out);
       if (std::isfinite(sky_.visibility_m)) add_haze(view, out);
