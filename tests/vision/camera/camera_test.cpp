@@ -116,56 +116,6 @@ TEST(Camera, DistortedPinholeProjectsLikeOpenCv) {
   EXPECT_GT(compared, 3000u);
 }
 
-/// Returns the pixel of a point by OpenCV, with 8 coefficients.
-cv::Point2d pixel_of_opencv(const PinholeLens& lens, const Eigen::Vector3d& p_C) {
-  const cv::Matx33d K(lens.focal_x_px, 0, lens.center_u_px, 0, lens.focal_y_px, lens.center_v_px, 0, 0, 1);
-  const std::vector<double> D = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3, lens.k4, lens.k5, lens.k6};
-  std::vector<cv::Point2d> pixels;
-  cv::projectPoints(std::vector<cv::Point3d>{{p_C.x(), p_C.y(), p_C.z()}}, cv::Vec3d(), cv::Vec3d(), K, D, pixels);
-  return pixels[0];
-}
-
-TEST(Camera, RationalAndUnifiedLensesProjectLikeOpenCv) {
-  std::mt19937_64 random(106);
-  size_t compared = 0;
-  for (int trial = 0; trial < 40; ++trial) {
-    const Camera rational = random_rational_pinhole(random), unified = random_unified(random);
-    const auto& [plane, xi] = std::get<UnifiedLens>(unified.lens);
-    for (int i = 0; i < 100; ++i) {
-      const double z_m = uniform(random, 0.1, 50.0);
-      const Eigen::Vector3d p_C(z_m * uniform(random, -0.7, 0.7), z_m * uniform(random, -0.6, 0.6), z_m);
-      // The unified lens is a pinhole that sees the unit sphere from xi behind its center.
-      const Eigen::Vector3d moved = p_C.normalized() + Eigen::Vector3d(0.0, 0.0, xi);
-      for (const auto& [pixel, expected] :
-           {std::pair(rational.project(p_C), pixel_of_opencv(std::get<PinholeLens>(rational.lens), p_C)),
-            std::pair(unified.project(p_C), pixel_of_opencv(plane, moved))}) {
-        if (!pixel) continue;
-        ++compared;
-        ASSERT_NEAR(pixel->x(), expected.x, kOpenCvPx);
-        ASSERT_NEAR(pixel->y(), expected.y, kOpenCvPx);
-      }
-    }
-  }
-  EXPECT_GT(compared, 6500u);
-}
-
-TEST(Camera, DoubleSphereProjectsOntoBothSpheresInTurn) {
-  std::mt19937_64 random(107);
-  for (int trial = 0; trial < 40; ++trial) {
-    const Camera camera = random_double_sphere(random);
-    const auto& lens = std::get<DoubleSphereLens>(camera.lens);
-    for (int i = 0; i < 100; ++i) {
-      const Eigen::Vector3d p_C(uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -1, 9));
-      const auto pixel = camera.project(p_C);
-      if (!pixel) continue;
-      const Eigen::Vector3d on_second = (p_C.normalized() + Eigen::Vector3d(0, 0, lens.xi)).normalized();
-      const Eigen::Vector3d seen = (1.0 - lens.alpha) * on_second + Eigen::Vector3d(0, 0, lens.alpha);
-      ASSERT_NEAR(pixel->x(), lens.center_u_px + lens.focal_x_px * on_second.x() / seen.z(), kOpenCvPx);
-      ASSERT_NEAR(pixel->y(), lens.center_v_px + lens.focal_y_px * on_second.y() / seen.z(), kOpenCvPx);
-    }
-  }
-}
-
 TEST(Camera, ReportsTheShareOfAnImagePastTheTurnOfItsPolynomial) {
   PinholeLens wide{857.48, 876.72, 968.06, 556.37};  // of an action camera
   wide.k1 = -0.2576;
