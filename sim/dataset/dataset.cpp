@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
@@ -101,6 +102,26 @@ std::pair<size_t, size_t> images_of(const DatasetRequest& request, size_t world,
   return {each + (world < more ? 1 : 0), world * each + std::min(world, more)};
 }
 
+/// A file's suffix and text.
+struct CalibrationText {
+  std::string_view suffix;
+  std::string text;
+};
+
+/// Returns the calibration of a camera in a format that holds its lens: OpenCV's, Kalibr's chain for a double sphere,
+/// or the file of OCamCalib.
+CalibrationText calibration_of(const CameraConfig& camera, const dynamics::sensors::ImuConfig& imu) {
+  using Model = CameraConfig::Model;
+  if (camera.model_kind == Model::ocam) return {".txt", read_input_file(camera.calibration)};
+  const std::array<CameraConfig, 1> one = {camera};
+  try {
+    return {".yaml",
+            camera.model_kind == Model::double_sphere ? kalibr_calibration(one, imu) : opencv_calibration(one, imu)};
+  } catch (const std::invalid_argument& fault) {
+    throw InputError(fault.what());
+  }
+}
+
 }  // namespace
 
 DatasetChannel dataset_channel(const std::string& name) {
@@ -134,6 +155,12 @@ std::string world_name(const DatasetRequest& request, size_t world) {
 
 void begin_dataset(const DatasetRequest& request, bool resume) {
   if (request.channels.empty()) throw InputError("--channels: name at least one");
+  std::set<fs::path> names;
+  for (const fs::path& scenario : request.scenarios) {
+    if (names.insert(scenario.stem()).second) continue;
+    throw InputError(fmt::format("{}: another scenario has this file name, by which the data set names its worlds",
+                                 scenario.string()));
+  }
   if (request.poses.empty() && request.images == 0) throw InputError("--images: random poses need a number of images");
   const PoseBounds& b = request.bounds;
   if (!(b.min_height_m < b.max_height_m)) throw InputError("--height: the first number must be the lower one");
@@ -175,6 +202,7 @@ bool is_written(const DatasetRequest& request, size_t world) {
 void write_world(const DatasetRequest& request, size_t world) {
   DrawnWorld drawn(request, scenario_of(request, world), seed_of(request, world));
   const Scenario& scenario = drawn.scenario();
+  const CalibrationText calibration = calibration_of(drawn.camera(), scenario.avionics.imu);  // may throw
   const Split split = splits_of(world_count(request))[world];
   const fs::path folder = request.out / name_of(split);
   for (const DatasetChannel channel : request.channels) fs::create_directories(folder / name_of(channel));
@@ -205,13 +233,8 @@ void write_world(const DatasetRequest& request, size_t world) {
     add_pose(shot.next, line);
   }
   write_file_whole(request.out / "labels" / (world_name(request, world) + ".json"), labels_json(drawn.scene()));
-  const std::array<CameraConfig, 1> camera = {drawn.camera()};
-  try {
-    write_file_whole(request.out / "calibration" / (scenario_of(request, world).stem().string() + ".yaml"),
-                     opencv_calibration(camera, scenario.avionics.imu));
-  } catch (const std::invalid_argument& fault) {
-    throw InputError(fault.what());
-  }
+  const std::string calibration_name = scenario_of(request, world).stem().string().append(calibration.suffix);
+  write_file_whole(request.out / "calibration" / calibration_name, calibration.text);
   write_file_whole(part_of(request, world, "json"), coco.json());
   write_file_whole(part_of(request, world, "csv"), fmt::to_string(rows));
 }

@@ -99,6 +99,24 @@ class Dataset(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("of other files", done.stderr)
 
+    def test_the_calibration_is_that_of_any_lens(self):
+        def camera(calibration):
+            return ["--set", "rig.cameras.0={role: front, rate: 10, channel: color, calibration: " + f"{calibration}}}"]
+
+        ocam = f"{SOURCE}/configs/calibrations/ocam_fisheye.txt"
+        chain = f"{SOURCE}/configs/calibrations/kalibr_wide.yaml, calibration_camera: cam1"
+        for number, (given, written) in enumerate(((ocam, "park.txt"), (chain, "park.yaml"))):
+            out = self.folder / f"lens{number}"
+            done = hedgehop("dataset", WORLD, *camera(given), "--images", 1, "--channels", "depth", "--renderer", "tiles", "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            if given == ocam:
+                self.assertEqual((out / "calibration" / written).read_bytes(), pathlib.Path(ocam).read_bytes())
+                continue
+            chains = [hedgehop("calibration", WORLD, *camera(file), "--camera", "front", "--format", "kalibr").stdout
+                      for file in (given, out / "calibration" / written)]
+            self.assertIn("camera_model: ds", chains[0])
+            self.assertEqual(chains[0], chains[1])
+
     def test_poses_are_within_their_bounds(self):
         for row in self.rows:
             self.assertGreaterEqual(float(row["clearance_m"]), 0.0)
@@ -180,6 +198,9 @@ class Dataset(unittest.TestCase):
 
         self.assertIn("valid: grey, color, depth", refused("--images", 2, "--channels", "collor"))
         self.assertIn("need a number of images", refused())
+        twice = hedgehop("dataset", WORLD, WORLD, "--images", 2, "--out", self.folder / "bad")
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn("another scenario has this file name", twice.stderr)
         self.assertIn("not in the rig; valid: front, down", refused("--images", 1, "--camera", "up"))
         self.assertIn("random poses in a row", refused("--images", 1, "--height", "900,901"))
         (self.folder / "poses.txt").write_text("1 2 3\n")
