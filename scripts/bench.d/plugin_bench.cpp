@@ -1,33 +1,41 @@
 #include <benchmark/benchmark.h>
 
+#include <vector>
+
 #include "sim/plugin/foreign_module.h"
 #include "sim/scenario/avoidance_choice.h"
 
 namespace hedgehop::sim {
 namespace {
 
-void decide(benchmark::State& state, const AvoidanceConfig& config) {
-  const auto module = make_module(config);
-  module->reset({.cameras = {}, .limits = {.speed_mps = 5.0, .acceleration_mps2 = 2.0, .radius_m = 0.5}, .seed = 1});
+/// Decisions on images of 640 x 480 px, grey.
+void decide(benchmark::State& state, bool in_process) {
+  PluginConfig config{.plugin = HEDGEHOP_BENCH_PLUGIN, .module = "first_pixel", .in_process = in_process};
+  config.parameters.kind = Node::Kind::map;
+  const auto module = make_module(AvoidanceConfig::Choice{config});
+  vision::camera::PinholeCamera lens;
+  lens.width_px = 640;
+  lens.height_px = 480;
+  module->reset({.cameras = {{.role = "front", .model = lens, .rate_hz = 50.0}},
+                 .limits = {.speed_mps = 5.0, .acceleration_mps2 = 2.0, .radius_m = 0.5},
+                 .seed = 1});
+  std::vector<avoidance::CameraFrame> frames = {{"front", 0, cv::Mat(480, 640, CV_8UC1, cv::Scalar(80))}};
   avoidance::Observation observation;
   observation.goal.p_WG = {100.0, 0.0, -10.0};
+  observation.frames = frames;
   for (auto _ : state) {
-    observation.t_ns += 20'000'000;
+    frames[0].t_ns = observation.t_ns += 20'000'000;
     benchmark::DoNotOptimize(module->update(observation));
   }
 }
 
-// One decision of a trivial module from a shared library.
-void PluginDecision(benchmark::State& state) {
-  PluginConfig config{.plugin = HEDGEHOP_BENCH_PLUGIN, .module = "go_to_goal"};
-  config.parameters.kind = Node::Kind::map;
-  decide(state, AvoidanceConfig::Choice{config});
-}
-BENCHMARK(PluginDecision)->Unit(benchmark::kMicrosecond);
+// One decision of a module in its own process: the copy of the image, the messages and the switches of processes.
+void PluginDecision(benchmark::State& state) { decide(state, false); }
+BENCHMARK(PluginDecision)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
-// The same module, built in.
-void PluginDecisionFloor(benchmark::State& state) { decide(state, AvoidanceConfig()); }
-BENCHMARK(PluginDecisionFloor)->Unit(benchmark::kMicrosecond);
+// The same module in the simulator's process.
+void PluginDecisionFloor(benchmark::State& state) { decide(state, true); }
+BENCHMARK(PluginDecisionFloor)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 }  // namespace
 }  // namespace hedgehop::sim
