@@ -236,7 +236,7 @@ class LinkedFlight(unittest.TestCase):
         for name in ("arducopter", "arducopter-heli"):
             (programs / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" "{PEER}" --port {self.port} "$@"\n')
             (programs / name).chmod(0o755)
-        for scenario, pulses in (("hover_quad", 4), ("hover_hexa", 6), ("hover_helicopter", 8)):
+        for scenario, pulses in (("hover_quad", 4), ("wall_hexa", 6), ("hover_helicopter", 8)):
             done = subprocess.run([HEDGEHOP, "run", SOURCE / f"configs/links/{scenario}.yaml", "--no-report", "--no-video", "--renderer",
                                    "tiles", "--set", "duration=1", "--set", f"link.port={self.port}", "--set", "link.serial_port=0",
                                    "--set", "film.enabled=false", "--out", self.folder / scenario], capture_output=True, text=True,
