@@ -1,5 +1,9 @@
 #include <benchmark/benchmark.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <vector>
 
 #include "sim/plugin/foreign_module.h"
@@ -34,7 +38,30 @@ void PluginDecision(benchmark::State& state) { decide(state, false); }
 BENCHMARK(PluginDecision)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 // The same module in the simulator's process.
-void PluginDecisionFloor(benchmark::State& state) { decide(state, true); }
+void InProcessDecision(benchmark::State& state) { decide(state, true); }
+BENCHMARK(InProcessDecision)->Unit(benchmark::kMicrosecond)->UseRealTime();
+
+// A message of the same size to another process and back: two switches of processes.
+void PluginDecisionFloor(benchmark::State& state) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return state.SkipWithError("no socket");
+  std::array<char, 256> message{};
+  const pid_t echo = ::fork();
+  if (echo == 0) {
+    ::close(ends[0]);
+    for (ssize_t got; (got = ::read(ends[1], message.data(), message.size())) > 0;) {
+      if (::write(ends[1], message.data(), static_cast<size_t>(got)) < 0) break;
+    }
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  for (auto _ : state) {
+    if (::write(ends[0], message.data(), message.size()) < 0) break;
+    if (::recv(ends[0], message.data(), message.size(), MSG_WAITALL) <= 0) break;
+  }
+  ::close(ends[0]);
+  ::waitpid(echo, nullptr, 0);
+}
 BENCHMARK(PluginDecisionFloor)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 namespace hedgehop::sim {
 namespace {
@@ -32,37 +33,42 @@ Channel::Outcome Channel::send(const std::string& message, std::optional<Clock::
   const size_t count = message.size();
   std::memcpy(framed.data(), &count, sizeof count);
   framed += message;
-  return transfer(framed.data(), framed.size(), false, until);
+  std::string_view rest = framed;
+  while (!rest.empty()) {
+    const ssize_t sent = ::send(socket_, rest.data(), rest.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (sent > 0) rest.remove_prefix(static_cast<size_t>(sent));
+    if (const Outcome outcome = after(sent, POLLOUT, until); outcome != Outcome::done) return outcome;
+  }
+  return Outcome::done;
 }
 
 Channel::Outcome Channel::receive(std::string& message, std::optional<Clock::time_point> until) {
-  std::array<char, sizeof(size_t)> head{};
-  if (const Outcome outcome = transfer(head.data(), head.size(), true, until); outcome != Outcome::done) return outcome;
   size_t count = 0;
-  std::memcpy(&count, head.data(), sizeof count);
-  if (count > kMaxMessageBytes) return Outcome::oversized;
-  message.resize(count);
-  return transfer(message.data(), count, true, until);
+  constexpr size_t kHead = sizeof count;
+  for (;;) {
+    if (received_.size() >= kHead) {
+      std::memcpy(&count, received_.data(), kHead);
+      if (count > kMaxMessageBytes) return Outcome::oversized;
+      if (received_.size() - kHead >= count) break;
+    }
+    std::array<char, 1 << 16> piece;
+    const ssize_t got = ::recv(socket_, piece.data(), piece.size(), MSG_DONTWAIT);
+    if (got > 0) received_.append(piece.data(), static_cast<size_t>(got));
+    if (const Outcome outcome = after(got, POLLIN, until); outcome != Outcome::done) return outcome;
+  }
+  message.assign(received_, kHead, count);
+  received_.erase(0, kHead + count);
+  return Outcome::done;
 }
 
-Channel::Outcome Channel::transfer(char* bytes, size_t count, bool receives,
-                                   std::optional<Clock::time_point> until) const {
-  while (count > 0) {
-    pollfd ready{.fd = socket_, .events = static_cast<short>(receives ? POLLIN : POLLOUT), .revents = 0};
-    const int found = ::poll(&ready, 1, left_ms(until));
-    if (found == 0 && until && Clock::now() >= *until) return Outcome::overdue;
-    if (found <= 0) {
-      if (found < 0 && errno != EINTR) return Outcome::ended;
-      continue;
-    }
-    const ssize_t moved = receives ? ::recv(socket_, bytes, count, MSG_DONTWAIT)
-                                   : ::send(socket_, bytes, count, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (moved == 0 || (moved < 0 && errno != EINTR && errno != EAGAIN)) return Outcome::ended;
-    if (moved < 0) continue;
-    bytes += moved;
-    count -= static_cast<size_t>(moved);
-  }
-  return Outcome::done;
+/// Judges a call of send(2) or recv(2), and waits if it moved nothing.
+Channel::Outcome Channel::after(ssize_t moved, short events, std::optional<Clock::time_point> until) const {
+  if (moved > 0) return until && Clock::now() > *until ? Outcome::overdue : Outcome::done;  // bytes may drip in forever
+  if (moved == 0 || (errno != EINTR && errno != EAGAIN)) return Outcome::ended;
+  pollfd ready{.fd = socket_, .events = events, .revents = 0};
+  const int found = ::poll(&ready, 1, left_ms(until));
+  if (found == 0 && until && Clock::now() >= *until) return Outcome::overdue;
+  return found < 0 && errno != EINTR ? Outcome::ended : Outcome::done;
 }
 
 }  // namespace hedgehop::sim

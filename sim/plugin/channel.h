@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -27,9 +29,10 @@ class Channel {
   Outcome receive(std::string& message, std::optional<Clock::time_point> until = {});
 
  private:
-  Outcome transfer(char* bytes, size_t count, bool receives, std::optional<Clock::time_point> until) const;
+  Outcome after(ssize_t moved, short events, std::optional<Clock::time_point> until) const;
 
   int socket_;
+  std::string received_;  ///< of the next messages
 };
 
 /// Maximum size of a message.
