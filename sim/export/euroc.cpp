@@ -1,8 +1,11 @@
 #include "sim/export/formats.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
+#include <vector>
 
 #include "sim/config/input_error.h"
 #include "sim/record/table.h"
@@ -23,22 +26,47 @@ std::string pose(const Eigen::Isometry3d& X) {
   return text + "]\n";
 }
 
+/// A lens as sensor.yaml names it. Unified and double-sphere lenses have the names and the order of Kalibr.
+struct SensorLens {
+  std::string_view camera_model, distortion_model;
+  std::vector<double> intrinsics, distortion;
+};
+
+SensorLens sensor_lens(const std::string& role, const Intrinsics& lens) {
+  SensorLens sensor{"pinhole",
+                    "radial-tangential",
+                    {lens.focal_x_px, lens.focal_y_px, lens.center_u_px, lens.center_v_px},
+                    lens.distortion};
+  switch (lens.model) {
+    case Intrinsics::Model::pinhole:
+      if (std::any_of(lens.distortion.begin() + 4, lens.distortion.end(), [](double k) { return k != 0.0; })) {
+        throw InputError(fmt::format("camera '{}': the EuRoC format does not support k3 to k6", role));
+      }
+      sensor.distortion.resize(4);
+      break;
+    case Intrinsics::Model::fisheye:
+      sensor.distortion_model = "equidistant";
+      break;
+    case Intrinsics::Model::unified:
+      sensor.camera_model = "omni";
+      sensor.intrinsics.insert(sensor.intrinsics.begin(), lens.xi);
+      break;
+    case Intrinsics::Model::double_sphere:
+      sensor.camera_model = "ds";
+      sensor.distortion_model = "none";
+      sensor.intrinsics.insert(sensor.intrinsics.begin(), {lens.xi, lens.alpha});
+      break;
+  }
+  return sensor;
+}
+
 std::string camera_sensor(const RecordedCamera& camera) {
-  const Intrinsics& lens = camera.lens;
-  using Model = Intrinsics::Model;
-  const bool fisheye = lens.model == Model::fisheye;
-  if (!fisheye && lens.model != Model::pinhole) {
-    throw InputError(fmt::format("camera '{}': the EuRoC format supports pinholes and fisheyes only", camera.role));
-  }
-  if (!fisheye && std::any_of(lens.distortion.begin() + 4, lens.distortion.end(), [](double k) { return k != 0.0; })) {
-    throw InputError(fmt::format("camera '{}': the EuRoC format does not support k3 to k6", camera.role));
-  }
+  const SensorLens lens = sensor_lens(camera.role, camera.lens);
   return fmt::format(
-      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
-      "intrinsics: [{}, {}, {}, {}]\ndistortion_model: {}\ndistortion_coefficients: [{}, {}, {}, {}]\n",
-      camera.role, pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.focal_x_px,
-      lens.focal_y_px, lens.center_u_px, lens.center_v_px, fisheye ? "equidistant" : "radial-tangential",
-      lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]);
+      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: {}\n"
+      "intrinsics: [{}]\ndistortion_model: {}\ndistortion_coefficients: [{}]\n",
+      camera.role, pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.camera_model,
+      fmt::join(lens.intrinsics, ", "), lens.distortion_model, fmt::join(lens.distortion, ", "));
 }
 
 std::string camera_data(const RecordedCamera& camera) {
