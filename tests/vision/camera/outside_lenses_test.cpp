@@ -91,9 +91,10 @@ TEST(OutsideLenses, ProjectTheRayOfEveryPixelBackToIt) {
       double worst_px = 0.0;
       for (size_t i = 0; i < pixels.size(); ++i) worst_px = std::max(worst_px, cv::norm(back[i] - pixels[i]));
       EXPECT_LT(worst_px, kBackPx) << camera.lens_name() << ", trial " << trial;
-      // Others are past the turn of a polynomial, which is reported.
+      // Others are past the turn of a polynomial, which is reported, or outside the image circle of a double sphere.
+      const bool has_circle = std::holds_alternative<DoubleSphereLens>(camera.lens);
       const double shown = static_cast<double>(pixels.size()) / (camera.width_px * camera.height_px);
-      EXPECT_GE(shown, 1.0 - share_past_turn(camera) - 0.005) << camera.lens_name() << ", trial " << trial;
+      EXPECT_GE(shown, has_circle ? 0.5 : 1.0 - share_past_turn(camera) - 0.005) << camera.lens_name();
     }
   }
 }
