@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sim/plugin/foreign_module.h"
-#include "sim/plugin/module_process.h"
+#include "sim/plugin/module_fault.h"
 
 namespace hedgehop::sim {
 namespace {

@@ -3,20 +3,15 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "avoidance/module.h"
+#include "sim/plugin/module_fault.h"
 
 namespace hedgehop::sim {
 
 /// Makes a module. Called in the process of the module.
 using ModuleSource = std::function<std::unique_ptr<avoidance::Module>()>;
-
-/// A failure of a module other than a std::exception that it throws: a crash, an exit, a timeout, a thrown number.
-struct ModuleFault : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct ModuleProcessOptions {
   std::string name;              ///< of the module, for messages
