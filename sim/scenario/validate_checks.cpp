@@ -26,6 +26,8 @@ std::string check_name(const CheckConfig& config) {
       config);
 }
 
+constexpr double kKnownClearanceM = 50.0;  // distances of obstacles are known up to here (sim/flight)
+
 class CheckValidator {
  public:
   explicit CheckValidator(const Scenario& scenario) : scenario_(scenario) {}
@@ -51,6 +53,12 @@ class CheckValidator {
   }
   void check(const std::string& path, const NoCollisionCheck&) {
     if (scenario_.may_collide) add(path, "contradicts 'may_collide: true'");
+  }
+  void check(const std::string& path, const MinClearanceCheck& check) {
+    if (check.to != MinClearanceCheck::To::ground && check.at_least_m > kKnownClearanceM) {
+      add(path + ".at_least", fmt::format("{:g} m is beyond the distance up to which obstacles are known ({:g} m)",
+                                          check.at_least_m, kKnownClearanceM));
+    }
   }
   void check(const std::string& path, const AltitudeBandCheck& check) {
     ordered(path + ".max", "min", check.min_m, check.max_m);

@@ -54,6 +54,9 @@ std::string name_of(const ClosestApproach& approach) {
   return approach.what.empty() ? "an obstacle" : approach.what == "ground" ? "the ground" : approach.what;
 }
 
+/// Returns a clearance as far as it is known, m.
+double known_m(const ClosestApproach& approach) { return std::min(approach.distance_m, kMaxClearanceM); }
+
 std::optional<double> moment(const ClosestApproach& approach) {
   return std::isfinite(approach.distance_m) ? std::optional(approach.t_s) : std::nullopt;
 }
@@ -98,7 +101,7 @@ CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {
   const ClosestApproach& nearest = closer(result.closest_obstacle, result.closest_ground);
   return {std::string{NoCollisionCheck::kName},
           result.outcome != Outcome::collided,
-          nearest.distance_m,
+          known_m(nearest),
           0.0,
           "m",
           ">",
@@ -113,7 +116,7 @@ CheckResult evaluate(const MinClearanceCheck& check, const Evidence& e) {
                                                              : closer(obstacle, ground);
   return {std::string{MinClearanceCheck::kName},
           nearest.distance_m >= check.at_least_m,
-          nearest.distance_m,
+          check.to == To::ground ? nearest.distance_m : known_m(nearest),
           check.at_least_m,
           "m",
           ">=",

@@ -149,6 +149,10 @@ TEST_F(CrossRules, ChecksMakeSense) {
               ElementsAre(HasSubstr("'altitude_band.max': must be greater than 'min' (9 m), got 8")));
   EXPECT_THAT(faults({"altitude_band={min: 90, max: 99}"}),
               ElementsAre(HasSubstr("m is outside the altitude_band, 90 to 99 m")));
+  EXPECT_THAT(
+      faults({"checks=[{check: min_clearance, at_least: 50.1}]"}),
+      ElementsAre(HasSubstr("'checks.0.at_least': 50.1 m is beyond the distance up to which obstacles are known")));
+  EXPECT_THAT(faults({"checks=[{check: min_clearance, at_least: 50.1, to: ground}]"}), testing::IsEmpty());
   EXPECT_THAT(faults({"checks=[{check: no_collision}]", "may_collide=true"}),
               ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
   EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rmss, at_most: 1}]"}),

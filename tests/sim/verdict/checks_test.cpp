@@ -9,6 +9,7 @@
 #include <random>
 
 #include "sim/scenario/reference_path.h"
+#include "sim/scenario/validate.h"
 #include "tests/sim/verdict/straight_flight.h"
 
 namespace hedgehop::sim {
@@ -28,6 +29,23 @@ TEST(Checks, ClearanceDistinguishesObstaclesFromGround) {
   EXPECT_DOUBLE_EQ(f.evaluate(MinClearanceCheck{.at_least_m = 1.0, .to = To::ground}).value, 9.0);
   EXPECT_DOUBLE_EQ(f.evaluate(MinClearanceCheck{.at_least_m = 1.0, .to = To::anything}).value, 1.5);
   EXPECT_FALSE(f.evaluate(MinClearanceCheck{.at_least_m = 1.6}).passed);
+}
+
+/// Without an obstacle in range, the figure is the range, and never "unknown" next to a verdict.
+TEST(Checks, ClearanceIsKnownUpToTheSearchRadius) {
+  StraightFlight f;
+  f.flight.result.closest_obstacle.distance_m = f.flight.result.closest_ground.distance_m =
+      std::numeric_limits<double>::infinity();
+  for (const CheckResult& result : {f.evaluate(MinClearanceCheck{.at_least_m = 1.0}), f.evaluate(NoCollisionCheck{})}) {
+    EXPECT_TRUE(result.passed);
+    EXPECT_EQ(result.value, kMaxClearanceM);
+    EXPECT_FALSE(result.t_s.has_value());
+  }
+  f.scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/perez2018_climb.yaml");
+  f.scenario.checks = {MinClearanceCheck{.at_least_m = kMaxClearanceM}};
+  EXPECT_TRUE(check_errors(f.scenario).empty());
+  f.scenario.checks = {MinClearanceCheck{.at_least_m = std::nextafter(kMaxClearanceM, 100.0)}};
+  EXPECT_EQ(check_errors(f.scenario).size(), 1u);
 }
 
 TEST(Checks, BandsAndBoxesHoldAtEveryTick) {
