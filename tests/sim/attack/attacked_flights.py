@@ -12,8 +12,8 @@ KNOWN_M = 50.0  # distances are known up to here
 
 
 def cases(usual):
-    """Returns the number of cases: from an environment variable (scripts/soak), otherwise `usual`."""
-    return int(os.environ.get("HEDGEHOP_ATTACKS", usual))
+    """Returns the number of cases: `usual`, times an environment variable if it is set (scripts/soak)."""
+    return usual * int(os.environ.get("HEDGEHOP_ATTACKS", 1))
 
 
 def scenario(**changes):

@@ -13,7 +13,7 @@
 
 namespace hedgehop::sim {
 
-/// A batch, a sweep and a reproduction of four flights of 0.1 s each, on a disk with injected faults.
+/// Campaigns of four flights of 0.1 s each, on a disk with injected faults.
 class SmallCampaign : public CampaignFolder {
  public:
   SmallCampaign() {
@@ -23,14 +23,26 @@ class SmallCampaign : public CampaignFolder {
           "flights: [{scenario: tiny.yaml, seeds: 1:3}, {name: fast, scenario: tiny.yaml, seeds: 1, set: "
           "[avoidance.speed=2]}]\n"
           "rows: [{claim: length, unit: m, flights: [tiny, fast], column: path_length_m, statistic: max}]\n");
+    write("far.yaml",
+          "use: tiny.yaml\nname: far\nchecks: [{check: formula, name: far, formula: always (north <= -1)}]\n");
+    write("search.yaml",
+          "scenario: far.yaml\nparameters: [{path: avoidance.speed, from: 1, to: 3, neutral: 1}]\n"
+          "design: {method: random, budget: 4, failures: 1, shrinking: 2, seed: 1}\n");
   }
 
   static constexpr std::string_view kCommands[] = {"batch", "sweep", "reproduce"};
+  /// A batch that stops at a claim, and a search that finds and reduces a failure.
+  static constexpr std::string_view kSequences[] = {"until", "falsify"};
 
-  /// Returns the arguments of one of kCommands. Repeating the command resumes an interrupted one.
+  /// Returns the exit status of a command that is not disturbed.
+  static int status(std::string_view command) { return command == "falsify" ? 1 : 0; }
+
+  /// Returns the arguments of a command. Repeating the command resumes an interrupted one.
   static std::string arguments(std::string_view command, std::string_view out, int workers) {
     const std::string options = fmt::format(" -j {} --out {}", workers, out);
     if (command == "batch") return "batch tiny.yaml --seeds 1:4 --resume" + options;
+    if (command == "until") return "batch tiny.yaml --seeds 1:9 --until 'collision < 0.6' --resume" + options;
+    if (command == "falsify") return "falsify search.yaml" + options;
     return std::string(command) + (command == "sweep" ? " gains.yaml" : " paper.yaml") + options;
   }
 
@@ -38,7 +50,7 @@ class SmallCampaign : public CampaignFolder {
   std::map<std::string, std::string> fly_undisturbed(std::string_view command) const {
     const CommandEnd end =
         shell(on_failing_disk("out", "none", 0) + HEDGEHOP_PROGRAM " " + arguments(command, "out", 2));
-    if (end.status != 0) throw std::runtime_error(end.err);
+    if (end.status != status(command)) throw std::runtime_error(end.err);
     auto files = lasting_files("out");
     std::filesystem::remove_all(path() / "out");
     return files;
