@@ -119,7 +119,10 @@ const Json& cell_of(const Json& data, const Json& world, const Json& module) {
 }
 
 std::string words(const Json& value, const char* format = "{:.2f}") {
-  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+  if (!value.is_number()) return "-";
+  std::string text = fmt::format(fmt::runtime(format), value.get<double>());
+  if (text.find_first_of("123456789") == std::string::npos) std::erase(text, '-');  // no -0.00
+  return text;
 }
 
 std::string name_cell(const Json& one, const char* key = "name") {

@@ -14,8 +14,10 @@
 namespace hedgehop::sim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::ordered_json;
 
 /// Two worlds: fast modules reach the near goal; no module reaches the far goal in time. One module cannot fly in one
@@ -125,12 +127,14 @@ TEST(Leaderboard, CellsNotFlownYetAreMissingAndDoNotCountForDifficulty) {
   records[1].status = FlightRecord::Status::failed;
   write_leaderboard(folder.path(), board);
   write_file_whole(folder.path() / "batch.csv", flight_table(records).csv());
-  const Json data = leaderboard_data(folder.path(), read_flights(folder.path()));
+  Json data = leaderboard_data(folder.path(), read_flights(folder.path()));
   EXPECT_FALSE(cell(data, "later", "m").contains("passed"));
   EXPECT_EQ(cell(data, "lost", "m").at("broken"), 1);
   EXPECT_EQ(data.at("worlds").at(0).at("name"), "lost");
   EXPECT_TRUE(data.at("worlds").at(1).at("difficulty").is_null());
   EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
+  for (Json& one : data.at("cells")) one["min_clearance_m"] = -0.002;
+  EXPECT_THAT(leaderboard_text(data), AllOf(HasSubstr(" 0.00 |"), Not(HasSubstr("-0.00"))));
 }
 
 TEST(Leaderboard, RejectsUnknownAndRepeatedNames) {

@@ -105,6 +105,46 @@ TEST(SweepInBrowser, OpensWithTheBestPointAndFollowsTheColumn) {
   }
 }
 
+/// The second point of the three that were tried is the best; the third has a failed flight.
+TEST(OptimizerInBrowser, ShowsTheColumnTheOptimumAndEveryPointThatWasTried) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(3);
+  for (size_t i = 0; i < 3; ++i) {
+    records[i].status = FlightRecord::Status::flown;
+    const std::string point = "p" + std::to_string(i);
+    records[i].order = {.id = "flights/" + point, .group = "point " + point, .scenario = "room.yaml", .seed = 1};
+    FlightResult& result = records[i].result.emplace().flight;
+    result.outcome = Outcome::reached;
+    result.flight_time_s = std::vector{30.0, 20.0, 10.0}[i];
+    result.checks = {{.name = "no_collision", .passed = i < 2, .value = 1.0, .limit = 0.0, .unit = "m"}};
+  }
+  write_file_whole(folder.path() / "sweep.csv",
+                   flight_table(records, {{.name = "point", .values = std::vector<std::string>{"p0", "p1", "p2"}},
+                                          {.name = "avoidance.gain", .values = std::vector{1.0, 2.0, 3.0}}})
+                       .csv());
+  write_file_whole(folder.path() / "sweep.json",
+                   R"({"design": "optimize", "parameters": [{"path": "avoidance.gain", "log": false}],
+                       "minimize": "flight_time_s", "failure_cost": 1000000.0})");
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const card = document.getElementById('convergence-card'), canvas = card.querySelector('canvas'), box = canvas.getBoundingClientRect();
+    const tips = new Set();
+    for (let x = 0; x < box.width; x += 8) {
+      canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + x, clientY: box.y + box.height / 2}));
+      if (!card.querySelector('.tip').hidden) tips.add(card.querySelector('.tip').firstChild.textContent);
+    }
+    return {hidden: card.hidden, text: card.textContent, tips: [...tips], best: document.querySelector('#answer-card .best').textContent,
+            column: document.querySelector('#answer-card select').value};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value.at("hidden"), false);
+  EXPECT_THAT(page.value.at("text").get<std::string>(),
+              AllOf(HasSubstr("mean of flight_time_s"), HasSubstr("3 points tried, 1 of them with a failed flight")));
+  EXPECT_EQ(page.value.at("tips").size(), 3u);
+  EXPECT_EQ(page.value.at("best"), "avoidance.gain = 2");
+  EXPECT_EQ(page.value.at("column"), "flight_time_s");
+}
+
 TEST(SweepFigures, AreTablesAndDrawingsThatOtherProgramsRead) {
   const CampaignFolder folder;
   write_grid(folder.path());
