@@ -57,6 +57,9 @@ Material material_of(const aiScene& scene, const aiMaterial& read, const std::fi
 Part part_of(const aiMesh& mesh, size_t uv_set) {
   Part part;
   part.material = mesh.mMaterialIndex;
+  part.body.corners.reserve(mesh.mNumVertices);
+  part.normals.reserve(mesh.mNumVertices);
+  part.body.faces.reserve(mesh.mNumFaces);
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D& p = mesh.mVertices[i];
     part.body.corners.emplace_back(p.x, p.y, p.z);
@@ -149,16 +152,30 @@ Eigen::Matrix3d level_axes(bool z_is_up, bool front_is_z) {
   return level;
 }
 
-Model read_model(const std::filesystem::path& file, const ModelOrigin& origin) {
+namespace {
+
+Model obj_looks(const std::filesystem::path& file, std::string_view text) {
+  ObjMaterials obj = obj_materials(file, text);
+  Model model;
+  for (const auto& [name, material] : obj.by_name) model.materials.push_back(material.look);
+  model.files = std::move(obj.files);
+  model.files.insert(file.lexically_normal());
+  return model;
+}
+
+/// Reads a file of an allowed form. @param origin  nullopt: the materials are sufficient.
+Model read_file(const std::filesystem::path& file, const std::optional<ModelOrigin>& origin) {
   std::string text = require_importable(file);
   const std::string suffix = suffix_of(file);
+  const ModelOrigin from = origin.value_or(ModelOrigin());
   try {
-    if (suffix != ".gltf" && suffix != ".glb") return read_by_importer(file, std::move(text), origin);
+    if (suffix == ".obj" && !origin) return obj_looks(file, text);
+    if (suffix != ".gltf" && suffix != ".glb") return read_by_importer(file, std::move(text), from);
     try {
-      return read_gltf(file, origin);
+      return origin ? read_gltf(file, from) : read_gltf_materials(file);
     } catch (const OldGltf& old) {
       if (old.nodes > kMaxOldNodes) throw;
-      return read_by_importer(file, std::move(text), origin);
+      return read_by_importer(file, std::move(text), from);
     }
   } catch (const std::invalid_argument&) {
     throw;
@@ -166,5 +183,11 @@ Model read_model(const std::filesystem::path& file, const ModelOrigin& origin) {
     throw std::invalid_argument("it is not valid: " + std::string(fault.what()));
   }
 }
+
+}  // namespace
+
+Model read_model(const std::filesystem::path& file, const ModelOrigin& origin) { return read_file(file, origin); }
+
+Model read_materials(const std::filesystem::path& file) { return read_file(file, std::nullopt); }
 
 }  // namespace hedgehop::scenes::mesh

@@ -140,8 +140,8 @@ void cut_triangle(const Polygon& polygon, bool is_two_sided, const Cells& cells,
   for (const Run& run : open) emit(run, range.last_row);
 }
 
-constexpr double kMaxCells = 4e6;         // that all triangles cover
-constexpr size_t kMaxCutFaces = 500'000;  // as for every mesh
+constexpr double kMaxCells = 4e6;  // that all triangles cover
+constexpr size_t kMaxCutFaces = 500'000;
 
 /// Returns the triangles cut at this resolution; no value if there are too many.
 std::optional<Triangles> cut_at(const Triangles& triangles, const Cells& cells) {

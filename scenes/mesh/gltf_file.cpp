@@ -24,7 +24,12 @@ constexpr size_t kMaxNumbers = 30'000'000;  // of an accessor; also of one witho
 std::vector<uint8_t> bytes_in(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail_gltf("it cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::error_code error;
+  std::vector<uint8_t> bytes(std::filesystem::file_size(file, error));
+  if (error) fail_gltf("it cannot be read");
+  stream.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));
+  bytes.resize(static_cast<size_t>(stream.gcount()));
+  return bytes;
 }
 
 uint32_t word_at(std::span<const uint8_t> bytes, size_t offset) {
@@ -133,7 +138,7 @@ void GltfFile::read_buffers() {
       if (!std::filesystem::exists(file, error)) {
         faults_[i] = "its buffer '" + uri + "': there is no such file";
       } else if (!may_be_read(file)) {
-        faults_[i] = "its file '" + file.string() + "' is not a regular file of at most 64 MB";
+        faults_[i] = "its file '" + file.string() + "' is not a regular file of at most 256 MB";
       } else {
         buffers_[i] = bytes_in(file);
         files_.insert(file.lexically_normal());

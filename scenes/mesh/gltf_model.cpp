@@ -12,6 +12,7 @@
 
 #include "scenes/mesh/gltf_file.h"
 #include "scenes/mesh/gltf_material.h"
+#include "scenes/mesh/make_room.h"
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/model.h"
 
@@ -69,19 +70,24 @@ class GltfModel {
     if (file_.json().contains("skins")) model_.unrendered.insert("skins");
   }
 
-  Model read() {
+  Model read_materials() {
     const size_t materials = file_.length("materials");
     GltfMaterials reader(file_, model_.unrendered);
     for (size_t i = 0; i <= materials; ++i) {  // the last one is the default
       materials_.push_back(GltfFile::in_element("materials", i, [&] { return reader.read(i); }));
       model_.materials.push_back(materials_.back().look);
     }
+    model_.files = file_.files();
+    return model_;
+  }
+
+  Model read() {
+    read_materials();
     parts_.resize(materials_.size());
     read_nodes();
     for (Part& part : parts_) {
       if (!part.body.faces.empty()) model_.parts.push_back(std::move(part));
     }
-    model_.files = file_.files();
     model_.front_is_z = model_.winding_is_front = true;
     return std::move(model_);
   }
@@ -159,6 +165,9 @@ class GltfModel {
     if (triangles_ > kMaxTriangles) fail_gltf("it has more than " + std::to_string(kMaxTriangles) + " triangles");
     if (corners_ > kMaxCorners) fail_gltf("it has more than " + std::to_string(kMaxCorners) + " corners");
     const auto first = static_cast<uint32_t>(part.body.corners.size());
+    make_room(part.body.corners, primitive.corners.size());
+    make_room(part.normals, primitive.normals.size());
+    make_room(part.body.faces, primitive.faces.size());
     const Eigen::Matrix3d linear = transform.linear();
     const bool mirrors = linear.determinant() < 0.0;
     Eigen::Matrix3d of_normals = linear.inverse().transpose();
@@ -200,6 +209,7 @@ class GltfModel {
   }
 
   static void add_faces(const std::vector<uint32_t>& indices, bool is_list, bool is_fan, Primitive& result) {
+    result.faces.reserve(is_list ? indices.size() / 3 : indices.size());
     for (size_t i = 0; i + 2 < indices.size(); i += is_list ? 3 : 1) {
       const uint32_t a = indices[is_fan ? 0 : i], b = indices[i + 1], c = indices[i + 2];
       const bool is_odd = !is_list && !is_fan && i % 2 == 1;
@@ -244,6 +254,12 @@ class GltfModel {
   static void flatten(Primitive& p) {
     Primitive flat;
     flat.material = p.material;
+    const size_t corners = 3 * p.faces.size();
+    flat.corners.reserve(corners);
+    flat.normals.reserve(corners);
+    flat.uvs.reserve(corners);
+    flat.colors.reserve(corners);
+    flat.faces.reserve(p.faces.size());
     for (const auto& face : p.faces) {
       const Vector3d across = (p.corners[face[1]] - p.corners[face[0]]).cross(p.corners[face[2]] - p.corners[face[0]]);
       const auto first = static_cast<uint32_t>(flat.corners.size());
@@ -290,5 +306,7 @@ class GltfModel {
 }  // namespace
 
 Model read_gltf(const std::filesystem::path& file, const ModelOrigin& origin) { return GltfModel(file, origin).read(); }
+
+Model read_gltf_materials(const std::filesystem::path& file) { return GltfModel(file, {}).read_materials(); }
 
 }  // namespace hedgehop::scenes::mesh

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "scenes/mesh/make_room.h"
+
 namespace hedgehop::scenes::mesh {
 
 std::array<TexturedPanel, 4> side_panels(const Eigen::AlignedBox3d& box_W) {
@@ -85,6 +87,8 @@ void MeshBuilder::add_tiled(const TexturedPanel& panel, double tile_m, const Eig
 
 void MeshBuilder::add(std::span<const Vertex> vertices, std::span<const std::array<uint32_t, 3>> faces) {
   const auto first = static_cast<uint32_t>(mesh_.vertices.size());
+  make_room(mesh_.vertices, vertices.size());
+  make_room(mesh_.indices, 3 * faces.size());
   for (const Vertex& vertex : vertices) {
     mesh_.vertices.push_back(vertex);
     mesh_.vertices.back().instance = instance_;

@@ -45,7 +45,7 @@ std::string add_mesh(const ImportConfig& c, const Eigen::Vector3d& origin_ENU, S
 
 // Adds the files that a mesh reads to `files`, with its images.
 void list_files(const std::filesystem::path& mesh, std::set<std::filesystem::path>& files) {
-  Model model = read_model(mesh, {});
+  Model model = read_materials(mesh);
   for (const Material& material : model.materials) {
     for (const std::optional<ImageSource>& image : {material.image, material.opacity}) {
       if (!image || image->bytes) continue;

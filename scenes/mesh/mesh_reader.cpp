@@ -24,9 +24,8 @@ namespace hedgehop::scenes::mesh {
 
 namespace {
 
-constexpr uintmax_t kMaxBytes = 64'000'000;
+constexpr uintmax_t kMaxBytes = 256'000'000;
 constexpr int kMaxNesting = 200;  // readers of JSON and XML recurse
-constexpr size_t kMaxFaces = 500'000;
 constexpr std::array<std::string_view, 6> kSuffixes{".obj", ".gltf", ".glb", ".dae", ".ply", ".stl"};
 
 /// Returns the depth of nested brackets outside strings.
@@ -172,7 +171,7 @@ std::string require_importable(const std::filesystem::path& mesh) {
   std::error_code error;
   refuse_if(!std::filesystem::exists(mesh, error), "there is no such file");
   refuse_if(!std::filesystem::is_regular_file(mesh, error), "it is not a regular file");
-  refuse_if(!may_be_read(mesh), "it is larger than 64 MB");
+  refuse_if(!may_be_read(mesh), "it is larger than 256 MB");
   const std::string suffix = suffix_of(mesh);
   refuse_if(std::ranges::find(kSuffixes, suffix) == kSuffixes.end(),
             "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
@@ -195,7 +194,8 @@ std::string require_importable(const std::filesystem::path& mesh) {
   refuse_if(suffix == ".dae" && has_bad_indices(text), "its indices (<p>, <v> or <vcount>) are not whole numbers");
   refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
-  refuse_if(suffix == ".obj" && faces(text) > kMaxFaces, "it has more than " + std::to_string(kMaxFaces) + " faces");
+  refuse_if(suffix == ".obj" && faces(text) > kMaxTriangles,
+            "it has more than " + std::to_string(kMaxTriangles) + " faces");
   return suffix == ".obj" && text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
 }
 
@@ -215,7 +215,7 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (Exists(file) && !may_be_read(file)) {
-      throw std::invalid_argument(std::string("its file '") + file + "' is not a regular file of at most 64 MB");
+      throw std::invalid_argument(std::string("its file '") + file + "' is not a regular file of at most 256 MB");
     }
     const auto* const bytes = reinterpret_cast<const uint8_t*>(text_.data());
     Assimp::IOStream* const stream =

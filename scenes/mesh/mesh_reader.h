@@ -12,23 +12,24 @@ namespace hedgehop::scenes::mesh {
 inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< with which a text in UTF-8 may begin
 
 /// Throws std::invalid_argument with the reason, without the file's name, if the importer cannot process the file
-/// safely: it is missing, not a regular file or larger than 64 MB; its suffix is not that of an OBJ, glTF, DAE, PLY or
+/// safely: it is missing, not a regular file or larger than 256 MB; its suffix is not that of an OBJ, glTF, DAE, PLY or
 /// STL file; an OBJ or a glTF is text in UTF-16; its JSON or XML is nested deeper than 200; a DAE has indices
-/// that are not whole numbers; an OBJ has more than 500,000 faces, or a PLY announces more elements than it has bytes.
+/// that are not whole numbers; an OBJ has more than 2,000,000 faces, or a PLY announces more elements than it has
+/// bytes.
 /// @return the contents of the file; of an OBJ without kUtf8Mark.
 std::string require_importable(const std::filesystem::path& mesh);
 
 /// Returns the suffix of a file in lower case, such as ".obj".
 std::string suffix_of(const std::filesystem::path& file);
 
-/// Returns whether the path is a regular file of at most 64 MB.
+/// Returns whether the path is a regular file of at most 256 MB.
 bool may_be_read(const std::filesystem::path& file);
 
-inline constexpr size_t kMaxTriangles = 500'000;
+inline constexpr size_t kMaxTriangles = 2'000'000;
 
 /// Returns the contents of an OBJ, DAE, PLY, STL or old glTF file without post-processing. `importer` owns the result;
 /// all its other formats are disabled. Throws std::invalid_argument with the reason, without the file's name, if the
-/// importer rejects the file, a file named in it is not a regular file of at most 64 MB, a face has more than 1,000
+/// importer rejects the file, a file named in it is not a regular file of at most 256 MB, a face has more than 1,000
 /// corners (triangulation cost is quadratic), or it has more than kMaxTriangles.
 /// @param text  its contents, from require_importable(); may differ from the file.
 /// @param opened  receives all files that were opened, if it is not null.

@@ -69,6 +69,10 @@ Eigen::Matrix3d level_axes(bool z_is_up, bool front_is_z);
 /// Returns the contents of a mesh file. Throws std::invalid_argument with the reason, without the file's name.
 Model read_model(const std::filesystem::path& file, const ModelOrigin& origin);
 
+/// Returns a model without parts: its materials and files. The triangles are read only if the format needs them for
+/// that (all but OBJ and glTF 2). Throws as read_model() does.
+Model read_materials(const std::filesystem::path& file);
+
 /// A glTF of version 1.
 class OldGltf : public std::invalid_argument {
  public:
@@ -80,6 +84,8 @@ class OldGltf : public std::invalid_argument {
 
 /// Returns the contents of a glTF file of version 2 (.gltf, .glb). Throws as read_model() does, or OldGltf.
 Model read_gltf(const std::filesystem::path& file, const ModelOrigin& origin);
+/// The same for read_materials().
+Model read_gltf_materials(const std::filesystem::path& file);
 
 /// Returns the sRGB value of a linear one, and the reverse; both 0..1.
 float srgb_of_linear(float linear);

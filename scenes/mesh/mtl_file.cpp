@@ -229,7 +229,7 @@ ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view te
       const std::optional<std::filesystem::path> file = file_named(name, {folder}, false);
       if (!file) throw std::invalid_argument("its material file '" + name + "': there is no such file");
       if (!may_be_read(*file))
-        throw std::invalid_argument("its file '" + file->string() + "' is not a regular file of at most 64 MB");
+        throw std::invalid_argument("its file '" + file->string() + "' is not a regular file of at most 256 MB");
       read_mtl(*file, folder, found);
       found.files.insert(file->lexically_normal());
       libraries += (libraries.empty() ? "'" : ", '") + name + "'";

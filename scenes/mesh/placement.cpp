@@ -22,6 +22,8 @@ constexpr float kMaxRepeats = 1e6f;        // of an image; more exceeds the prec
 // Returns the corners and faces of a part in W, without degenerate faces.
 Polyhedron faces_W(const Polyhedron& body, const Eigen::Affine3d& to_W) {
   Polyhedron result;
+  result.corners.reserve(body.corners.size());
+  result.faces.reserve(body.faces.size());
   for (const Vector3d& corner : body.corners) result.corners.push_back(to_W * corner);
   for (const auto& [a, b, c] : body.faces) {
     const Vector3d across = (result.corners[b] - result.corners[a]).cross(result.corners[c] - result.corners[a]);
@@ -88,6 +90,7 @@ void draw(const Triangles& triangles, MeshBuilder& builder) {
 
 Polyhedron polyhedron_of(const Triangles& triangles) {
   Polyhedron result;
+  result.corners.reserve(triangles.vertices.size());
   for (const Vertex& vertex : triangles.vertices) result.corners.push_back(vertex.p_W.cast<double>());
   result.faces = triangles.faces;
   return result;

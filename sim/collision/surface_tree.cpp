@@ -77,6 +77,10 @@ void SurfaceTree::add(const scenes::Solid& solid, size_t first_id) {
 void SurfaceTree::build() {
   std::vector<uint32_t> ids;
   std::vector<AlignedBox3f> boxes;
+  size_t count = 0;
+  for (const Surface& surface : surfaces_) count += surface.polyhedron.faces.size();
+  ids.reserve(count);
+  boxes.reserve(count);
   for (const Surface& surface : surfaces_) {
     if (surface.first_id + surface.polyhedron.faces.size() > std::numeric_limits<uint32_t>::max()) {
       throw std::invalid_argument("the scene has too many triangles");

@@ -139,10 +139,10 @@ TEST_F(BadFile, RejectsPipesAndOtherFormatsNamedByAMesh) {
   for (const char* name : {"deep.fbx", "deep.obj", "deep.gltf", "deep.glb"}) folder.write(name, fbx);
   const auto with = [](const std::string& file) { return "tiny.yaml --set 'scene.imports=[{file: " + file + "}]'"; };
   refused(with("pipe.obj"), "pipe.obj': it is not a regular file");
-  refused(with("piped.obj"), "pipe.mtl' is not a regular file of at most 64 MB");
-  refused(with("huge.obj"), "huge.mtl' is not a regular file of at most 64 MB");
-  refused(with("piped.gltf"), "buffer' is not a regular file of at most 64 MB");
-  refused(with("faces.obj"), "it has more than 500000 faces");
+  refused(with("piped.obj"), "pipe.mtl' is not a regular file of at most 256 MB");
+  refused(with("huge.obj"), "huge.mtl' is not a regular file of at most 256 MB");
+  refused(with("piped.gltf"), "buffer' is not a regular file of at most 256 MB");
+  refused(with("faces.obj"), "it has more than 2000000 faces");
   refused(with("chain.gltf"), "it has no triangles");
   refused(with("deep.fbx"), "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
   for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
