@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,21 @@ void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // open() returns the lowest free descriptor
   }
+}
+
+/// Raises the stack limit of this process if it is too small. Returns whether it is sufficient.
+bool require_stack() {
+  constexpr rlim_t kRequiredBytes = 2 << 20;
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kRequiredBytes) return true;
+  if (stack.rlim_max >= kRequiredBytes) {
+    stack.rlim_cur = kRequiredBytes;
+    if (::setrlimit(RLIMIT_STACK, &stack) == 0) return true;
+  }
+  std::fprintf(stderr, "hedgehop: the stack limit is %llu kB; at least %llu kB are required (ulimit -s)\n",
+               static_cast<unsigned long long>(stack.rlim_cur >> 10),
+               static_cast<unsigned long long>(kRequiredBytes >> 10));
+  return false;
 }
 
 /// Writes a part of the results to standard output. After a write error (a closed pipe, a full disk) it drops the text,
@@ -38,6 +54,7 @@ ssize_t write_results(void* error, const char* text, size_t bytes) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  if (!require_stack()) return hedgehop::sim::cli::kBadInput;
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not end a flight
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit (ulimit -f) is a write error
   int error = 0;

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "sim/config/input_error.h"
+
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa leaks a few hundred bytes per context, and assimp leaks 44 bytes per broken glTF file. The list of
 // suppressions is not printed, because tests compare the last line of a flight's output.
@@ -122,9 +124,20 @@ void OsmesaContext::make_current() {
   }
 }
 
+/// Throws InputError if the environment changes the version or the extensions of Mesa. Images would differ, or Mesa
+/// would end the program.
+void require_unchanged_mesa() {
+  for (const char* const name : {"MESA_EXTENSION_OVERRIDE", "MESA_EXTENSION_MAX_YEAR", "MESA_GL_VERSION_OVERRIDE",
+                                 "MESA_GLSL_VERSION_OVERRIDE"}) {
+    if (std::getenv(name) == nullptr) continue;
+    throw InputError(fmt::format("{} is set, which changes Mesa; unset it, or use --renderer tiles", name));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<GlContext> make_context(RendererKind kind) {
+  require_unchanged_mesa();
   setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   switch (kind) {
     case RendererKind::osmesa:

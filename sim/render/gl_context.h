@@ -25,7 +25,8 @@ class GlContext {
 
 /// Returns a context of OSMesa or EGL. Mesa's rasterizer threads are off unless the environment sets LP_NUM_THREADS.
 /// @param kind  osmesa or egl.
-/// Throws std::runtime_error with the cause if the context cannot be created or lacks a function.
+/// Throws std::runtime_error with the cause if the context cannot be created or lacks a function, and InputError if an
+/// environment variable changes Mesa's version or extensions.
 std::unique_ptr<GlContext> make_context(RendererKind kind);
 
 /// Returns an EGL context without a surface: on the first hardware device, else on Mesa's software device.
