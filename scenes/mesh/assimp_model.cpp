@@ -99,6 +99,7 @@ Model read_by_importer(const std::filesystem::path& file, std::string text, cons
   const bool is_obj = suffix_of(file) == ".obj";
   if (is_obj) {
     obj = obj_materials(file, text);
+    text = with_leading_zeros(text);
     if (!origin_W.isZero(0.0)) text = subtracted(text, std::exchange(origin_W, Vector3d::Zero()));
     model.unrendered = obj.unrendered;
   }

@@ -34,6 +34,12 @@ std::string plain_name(std::string name) {
   return quoted ? name.substr(1, name.size() - 2) : name;
 }
 
+// Returns a name whose spaces have no backslash before them.
+std::string without_escapes(std::string name) {
+  for (size_t at = name.find("\\ "); at != std::string::npos; at = name.find("\\ ", at)) name.erase(at, 1);
+  return name;
+}
+
 // Returns the bytes of an image. Throws with the reason if there is no such file.
 std::vector<uint8_t> bytes_of(const ImageSource& source, const std::string& place) {
   if (source.bytes) return *source.bytes;
@@ -115,6 +121,7 @@ std::optional<fs::path> file_named(const std::string& name, const std::vector<fs
   std::vector<std::string> spellings{plain, with_slashes(plain), percent_decoded(plain),
                                      with_slashes(percent_decoded(plain))};
   if (is_uri) std::ranges::rotate(spellings, spellings.begin() + 2);
+  spellings.push_back(without_escapes(plain));
   for (const bool base_only : {false, true}) {
     for (const std::string& spelling : spellings) {
       const fs::path path = base_only ? fs::path(with_slashes(spelling)).filename() : fs::path(spelling);

@@ -122,8 +122,7 @@ std::string_view json_of_glb(std::string_view file) {
 }
 
 bool is_old_binary(std::string_view glb) {
-  constexpr size_t kVersionAt = 4;
-  return glb.starts_with("glTF") && glb.size() >= 2 * kVersionAt && number_at(glb, kVersionAt) == 1;
+  return glb.starts_with("glTF") && glb.size() >= 8 && number_at(glb, 4) == 1;  // the version is the second word
 }
 
 /// Returns whether a binary glTF has the bytes that it announces: a header of 12 bytes, then chunks, each with a length
@@ -211,9 +210,10 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
 
   bool Exists(const char* file) const override {  // assimp's version opens the file
     std::error_code error;
-    return std::filesystem::exists(file, error);
+    return !is_hidden(file) && std::filesystem::exists(file, error);
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (is_hidden(file)) return nullptr;
     if (Exists(file) && !may_be_read(file)) {
       throw std::invalid_argument(std::string("its file '") + file + "' is not a regular file of at most 256 MB");
     }
@@ -225,6 +225,8 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   }
 
  private:
+  /// Whether it is a material file, which obj_materials() reads; the importer fails at keywords of extensions.
+  bool is_hidden(const std::filesystem::path& file) const { return suffix_of(mesh_) == ".obj" && file != mesh_; }
   std::string mesh_;  ///< its contents are `text_`
   const std::string& text_;
   std::set<std::filesystem::path>* opened_;
@@ -273,8 +275,9 @@ void require_bounded(const aiScene& model) {
 
 /// Returns the importer's message, in plain words for files without faces.
 std::string cause_of(const std::string& message) {
-  for (const char* no_faces : {"aiScene::mNumMeshes is 0", "contains no faces", "contains no vertices", "is a POINT",
-                               "file is empty", "File came out empty", "Unable to extract mesh data"}) {
+  for (const char* no_faces :
+       {"aiScene::mNumMeshes is 0", "contains no faces", "contains no vertices", "is a POINT", "file is empty",
+        "file is too small", "File came out empty", "Unable to extract mesh data"}) {
     if (message.find(no_faces) != std::string::npos) return "it has no triangles";
   }
   return message;

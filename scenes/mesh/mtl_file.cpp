@@ -123,6 +123,10 @@ class ImageStatement {
       if (numbers != std::vector{0.0, 1.0}) unrendered_.insert("MTL option -mm");
       return true;
     }
+    if (option == "-colorspace") {
+      if (lower(take_word(rest)) != "srgb") unrendered_.insert("MTL option -colorspace");
+      return true;
+    }
     constexpr std::array<std::string_view, 7> kWithoutEffect{"-blendu", "-blendv", "-cc",  "-texres",
                                                              "-boost",  "-bm",     "-type"};
     if (option == "-imfchan") unrendered_.insert("MTL option -imfchan");
@@ -192,12 +196,22 @@ void read_mtl(const std::filesystem::path& file, const std::filesystem::path& ob
   });
 }
 
+// Removes the first name of a text and returns it. A backslash before a space makes it a part of the name.
+std::string take_name(std::string_view& text) {
+  std::string name;
+  do {
+    if (!name.empty()) name.back() = ' ';
+    name += take_word(text);
+  } while (name.ends_with('\\') && !text.empty());
+  return name;
+}
+
 // Returns the material files that a statement names: one name with spaces, or several.
 std::vector<std::string> libraries_of(std::string_view rest, const std::filesystem::path& folder) {
   if (rest.empty() || file_named(std::string(rest), {folder}, false)) return {std::string(rest)};
   const std::string_view whole = rest;
   std::vector<std::string> names;
-  while (!rest.empty()) names.emplace_back(take_word(rest));
+  while (!rest.empty()) names.push_back(take_name(rest));
   const bool any =
       std::ranges::any_of(names, [&](const auto& name) { return file_named(name, {folder}, false).has_value(); });
   return any ? names : std::vector{std::string(whole)};
@@ -245,6 +259,20 @@ ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view te
                                 (libraries.empty() ? "it names none (mtllib)" : "it names " + libraries));
   }
   return found;
+}
+
+std::string with_leading_zeros(std::string_view obj) {
+  std::string result;
+  result.reserve(obj.size());
+  bool at_start = true, is_vertex = false;
+  char before = '\n';
+  for (const char c : obj) {
+    if (at_start && !is_space(c)) is_vertex = c == 'v';
+    at_start = c == '\n' || (at_start && is_space(c));
+    if (is_vertex && c == '.' && std::isdigit(static_cast<unsigned char>(before)) == 0) result += '0';
+    result += before = c;
+  }
+  return result;
 }
 
 std::string subtracted(std::string_view obj, const Eigen::Vector3d& origin) {

@@ -28,6 +28,9 @@ struct ObjMaterials {
 /// Throws std::invalid_argument if a material file is missing, or they lack a material that a face uses.
 ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view text);
 
+/// Returns the text of an OBJ file whose coordinates have a digit before the point: the importer does not count ".5".
+std::string with_leading_zeros(std::string_view obj);
+
 /// Returns the text of an OBJ file with a position subtracted from its vertices, in double precision.
 std::string subtracted(std::string_view obj, const Eigen::Vector3d& origin);
 

@@ -68,6 +68,20 @@ TEST_F(ObjMaterial, TextsMayBeginWithTheMarkOfUtf8) {
   EXPECT_EQ(color_at(scene, 0.5), cv::Vec3b(255, 0, 0));
 }
 
+TEST_F(ObjMaterial, CoordinatesMayBeginWithTheirPoint) {
+  const std::string file = write("dots.obj", "v .5 -.25e1 0.\nv 1.5 +.75 .0\nv -.5e-001 2 .125\nf 1 2 3\n");
+  Eigen::AlignedBox3f box;
+  for (const Vertex& vertex : imported({.file = file}).meshes.at(0).vertices) box.extend(vertex.p_W);
+  // x is east, y is up, and z is south.
+  EXPECT_LT((box.min() - Eigen::Vector3f(-0.125f, -0.05f, -2.0f)).norm(), 1e-6f);
+  EXPECT_LT((box.max() - Eigen::Vector3f(0.0f, 1.5f, 2.5f)).norm(), 1e-6f);
+}
+
+TEST_F(ObjMaterial, KeywordsOfExtensionsHaveNoEffect) {
+  EXPECT_EQ(color_at(with("Kd 1 0 0\naniso 0.7\nanisor 0.8\nPr 0.2\nmap_Pr roughness.tex"), 0.5), cv::Vec3b(255, 0, 0));
+  EXPECT_THAT(lines_, IsEmpty());
+}
+
 TEST_F(ObjMaterial, RefusesFilesWithoutVisibleFacesWithTheReason) {
   const auto import_of = [&](const std::string& text) {
     return [this, file = write("bad.obj", text)] { imported({.file = file}); };
@@ -87,6 +101,8 @@ TEST_F(ObjMaterial, ImagesAreFoundByTheRulesOfTheFormat) {
                                         {"map_Kd 50%25.png", "50%25.png"},
                                         {"map_Kd a%20b.png", "a b.png"},
                                         {"map_Kd C:\\work\\base name.png", "base name.png"},
+                                        {"map_Kd a\\ b.png", "a b.png"},
+                                        {"map_Kd -colorspace sRGB -texres 64 a.png", "a.png"},
                                         {"map_Kd /absent/base.png", "base.png"}}) {
     write_image(file);
     EXPECT_EQ(color_at(with(statement), -0.5), kRed) << statement;
@@ -102,6 +118,10 @@ TEST_F(ObjMaterial, ImagesAreRelativeToTheMaterialFile) {
   write("materials/quad.mtl", "newmtl paint\nmap_Kd near.png\n");
   const Scene scene = imported({.file = write("quad.obj", quad("mtllib materials\\quad.mtl"))});
   EXPECT_EQ(color_at(scene, 0.5), kBlue);
+  write("my materials.mtl", "newmtl paint\nKd 1 0 0\n");
+  write("others.mtl", "");
+  const Scene red = imported({.file = write("quad.obj", quad("mtllib others.mtl my\\ materials.mtl"))});
+  EXPECT_EQ(color_at(red, 0.5), cv::Vec3b(255, 0, 0));
 }
 
 TEST_F(ObjMaterial, AMissingImageDiffersFromADamagedOne) {
