@@ -36,7 +36,7 @@ void isolate(const fs::path& folder, pid_t parent, bool from_main_thread, int so
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   const int input = ::open("/dev/null", O_RDONLY),
-            log = ::open((folder / kLogName).c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+            log = ::open((folder / kLogName).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0666);
   ::dup2(input, STDIN_FILENO);
   ::dup2(log, STDOUT_FILENO);
   ::dup2(log, STDERR_FILENO);
