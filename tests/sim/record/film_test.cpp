@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/config/whole_file.h"
 #include "sim/record/film.h"
 #include "tests/sim/record/error_of.h"
 #include "tests/sim/record/film_reader.h"
@@ -46,6 +47,20 @@ TEST(Film, ReadsBackWithEveryImageInOrder) {
     EXPECT_NEAR(left[0], 200, kCodingError) << "red comes back red";
     EXPECT_NEAR(left[2], 30, kCodingError);
   }
+}
+
+TEST(Film, OfEqualImagesHasEqualBytes) {
+  const TemporaryFolder folder;
+  std::string texts[2];
+  for (std::string& text : texts) {
+    const std::filesystem::path file = folder.path() / "video.webm";
+    Film film(file, 10.0, {160, 120});
+    for (int i = 0; i < 30; ++i) film.add(image(i, {160, 120}));
+    film.close();
+    text = read_file_whole(file);
+  }
+  EXPECT_FALSE(texts[0].empty());
+  EXPECT_TRUE(texts[0] == texts[1]);
 }
 
 TEST(Film, CropsAnOddRowAndColumn) {
