@@ -45,6 +45,7 @@ struct NearSearch {
 /// Searches for triangles along a segment, in the form that Eigen's BVIntersect() asks for.
 struct SegmentSearch {
   Vector3d from_W, along_W;
+  const std::function<AlignedBox3f(size_t id)>& box_of_triangle;
   const std::function<void(size_t id)>& visit;
 
   bool intersectVolume(const AlignedBox3f& volume) const {
@@ -63,7 +64,7 @@ struct SegmentSearch {
     return enter <= leave + kRounding;
   }
   bool intersectObject(uint32_t id) const {
-    visit(id);
+    if (intersectVolume(box_of_triangle(id))) visit(id);
     return false;  // go on
   }
 };
@@ -103,6 +104,11 @@ const SurfaceTree::Surface& SurfaceTree::surface_of(size_t id) const {
   return *std::prev(std::ranges::upper_bound(surfaces_, id, {}, &Surface::first_id));
 }
 
+AlignedBox3f SurfaceTree::box_of_triangle(size_t id) const {
+  const Surface& surface = surface_of(id);
+  return box_of(surface.polyhedron, surface.polyhedron.faces[id - surface.first_id], surface.X_WS);
+}
+
 void SurfaceTree::visit_one(size_t id, const Visit& visit) const {
   const Surface& surface = surface_of(id);
   const auto& [a, b, c] = surface.polyhedron.faces[id - surface.first_id];
@@ -116,7 +122,10 @@ void SurfaceTree::visit_one(size_t id, const Visit& visit) const {
 void SurfaceTree::visit_near(const AlignedBox3d& box_W, const std::function<double()>& reach_m,
                              const Visit& visit) const {
   if (surfaces_.empty()) return;
-  const std::function<void(size_t)> visit_id = [&](size_t id) { visit_one(id, visit); };
+  // The tree tests the boxes of its nodes only. Most triangles of a node are farther away.
+  const std::function<void(size_t)> visit_id = [&](size_t id) {
+    if (box_W.exteriorDistance(box_of_triangle(id).cast<double>()) <= reach_m()) visit_one(id, visit);
+  };
   NearSearch search{box_W, reach_m, visit_id};
   Eigen::BVMinimize(tree_, search);
 }
@@ -124,7 +133,8 @@ void SurfaceTree::visit_near(const AlignedBox3d& box_W, const std::function<doub
 void SurfaceTree::visit_along(const Vector3d& from_W, const Vector3d& to_W, const Visit& visit) const {
   if (surfaces_.empty()) return;
   const std::function<void(size_t)> visit_id = [&](size_t id) { visit_one(id, visit); };
-  SegmentSearch search{from_W, to_W - from_W, visit_id};
+  const std::function<AlignedBox3f(size_t)> box = [this](size_t id) { return box_of_triangle(id); };
+  SegmentSearch search{from_W, to_W - from_W, box, visit_id};
   Eigen::BVIntersect(tree_, search);
 }
 

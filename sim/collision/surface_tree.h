@@ -49,6 +49,7 @@ class SurfaceTree {
     size_t first_id = 0;
   };
   const Surface& surface_of(size_t id) const;
+  Eigen::AlignedBox3f box_of_triangle(size_t id) const;
 
   std::vector<Surface> surfaces_;
   Eigen::KdBVH<float, 3, uint32_t> tree_;
