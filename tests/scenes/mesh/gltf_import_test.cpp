@@ -246,5 +246,43 @@ TEST_F(GltfImport, ReadsTenThousandNodes) {
   EXPECT_EQ(scene.meshes.at(0).indices.size(), size_t{6} * kNodes);
 }
 
+// Returns a sheet of 2 x side x side triangles as a binary glTF.
+std::string sheet(uint32_t side) {
+  const auto bytes_of = [](const auto& value) { return std::string(reinterpret_cast<const char*>(&value), 4); };
+  std::string data;
+  for (uint32_t i = 0; i <= side; ++i) {
+    for (uint32_t j = 0; j <= side; ++j) {
+      for (const uint32_t value : {i, 0u, j}) data += bytes_of(0.5f * static_cast<float>(value));
+    }
+  }
+  const size_t positions = data.size();
+  for (uint32_t i = 0; i < side; ++i) {
+    for (uint32_t j = 0; j < side; ++j) {
+      const uint32_t a = i * (side + 1) + j, b = a + 1, c = a + side + 1, d = c + 1;
+      for (const uint32_t index : {a, b, c, b, d, c}) data += bytes_of(index);
+    }
+  }
+  const auto text = [](size_t n) { return std::to_string(n); };
+  std::string json =
+      R"({"asset": {"version": "2.0"}, )" + kOneNode +
+      R"(, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+      "buffers": [{"byteLength": )" +
+      text(data.size()) + R"(}], "bufferViews": [{"buffer": 0, "byteLength": )" + text(positions) +
+      R"(}, {"buffer": 0, "byteOffset": )" + text(positions) + R"(, "byteLength": )" + text(data.size() - positions) +
+      R"(}], "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": )" +
+      text((side + 1) * (side + 1)) + R"(}, {"bufferView": 1, "componentType": 5125, "type": "SCALAR", "count": )" +
+      text(size_t{6} * side * side) + "}]}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto number = [&](size_t n) { return bytes_of(static_cast<uint32_t>(n)); };
+  return "glTF" + number(2) + number(28 + json.size() + data.size()) + number(json.size()) + "JSON" + json +
+         number(data.size()) + std::string("BIN\0", 4) + data;
+}
+
+TEST_F(GltfImport, ReadsAMillionTriangles) {
+  const Scene scene = imported({.file = write("sheet.glb", sheet(708))});
+  ASSERT_EQ(scene.solids.size(), 1u);
+  EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 1'002'528u);
+}
+
 }  // namespace
 }  // namespace hedgehop::scenes::mesh
