@@ -61,7 +61,7 @@ Channel::Outcome Channel::receive(std::string& message, std::optional<Clock::tim
   return Outcome::done;
 }
 
-/// Judges a call of send(2) or recv(2), and waits if it moved nothing.
+/// Judges a call of send(2) or recv(2), and waits if it moved no bytes.
 Channel::Outcome Channel::after(ssize_t moved, short events, std::optional<Clock::time_point> until) const {
   if (moved > 0) return until && Clock::now() > *until ? Outcome::overdue : Outcome::done;  // bytes may drip in forever
   if (moved == 0 || (errno != EINTR && errno != EAGAIN)) return Outcome::ended;
