@@ -35,7 +35,10 @@ class Killed : public ::testing::TestWithParam<std::string_view> {
   void resume(const std::map<std::string, std::string>& whole, const std::string& killed) {
     const CommandEnd end = folder.hedgehop(folder.arguments(GetParam(), "out", 2));
     EXPECT_EQ(end.status, SmallCampaign::status(GetParam())) << killed << ": " << end.err;
-    EXPECT_THAT(differences(whole, folder.lasting_files("out")), IsEmpty()) << killed;
+    std::vector<std::string> different = differences(whole, folder.lasting_files("out"));
+    // A batch that stops at a claim discards the flights past its stop, but their files may remain.
+    if (GetParam() == "until") std::erase_if(different, [&](const auto& name) { return !whole.contains(name); });
+    EXPECT_THAT(different, IsEmpty()) << killed;
     EXPECT_THAT(incomplete_files(), IsEmpty()) << killed;
     std::filesystem::remove_all(folder.path() / "out");
   }
