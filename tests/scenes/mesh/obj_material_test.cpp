@@ -71,7 +71,8 @@ TEST_F(ObjMaterial, TextsMayBeginWithTheMarkOfUtf8) {
 TEST_F(ObjMaterial, CoordinatesMayBeginWithTheirPoint) {
   const std::string file = write("dots.obj", "v .5 -.25e1 0.\nv 1.5 +.75 .0\nv -.5e-001 2 .125\nf 1 2 3\n");
   Eigen::AlignedBox3f box;
-  for (const Vertex& vertex : imported({.file = file}).meshes.at(0).vertices) box.extend(vertex.p_W);
+  const Scene scene = imported({.file = file});
+  for (const Vertex& vertex : scene.meshes.at(0).vertices) box.extend(vertex.p_W);
   // x is east, y is up, and z is south.
   EXPECT_LT((box.min() - Eigen::Vector3f(-0.125f, -0.05f, -2.0f)).norm(), 1e-6f);
   EXPECT_LT((box.max() - Eigen::Vector3f(0.0f, 1.5f, 2.5f)).norm(), 1e-6f);
