@@ -132,7 +132,7 @@ TEST(OptimizerInBrowser, ShowsTheColumnTheOptimumAndEveryPointThatWasTried) {
     const tips = new Set();
     for (let x = 0; x < box.width; x += 8) {
       canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.x + x, clientY: box.y + box.height / 2}));
-      if (!card.querySelector('.tip').hidden) tips.add(card.querySelector('.tip').firstChild.textContent);
+      if (!card.querySelector('.tip').hidden) tips.add(card.querySelector('.tip').children[1].textContent);
     }
     return {hidden: card.hidden, text: card.textContent, tips: [...tips], best: document.querySelector('#answer-card .best').textContent,
             column: document.querySelector('#answer-card select').value};)js");
