@@ -1,6 +1,7 @@
 #include "sim/collision/placed_hull.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,19 @@ double PlacedHull::ground_clearance_m() const {
   double lowest_z = -kInfinity;
   for (const PlacedBody& part : placed_) lowest_z = std::max(lowest_z, part.extent(Eigen::Vector3d::UnitZ()));
   return -lowest_z;
+}
+
+double PlacedHull::min_distance_m(const Eigen::AlignedBox3d& box_W, double reach_m) const {
+  const double boxes_m = box_W_.exteriorDistance(box_W);
+  if (boxes_m > reach_m) return boxes_m;
+  // A plane between the hull's center and the nearest point of the box separates the box from the hull.
+  const Eigen::Vector3d center_W = box_W_.center();
+  const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min()).cwiseMin(box_W.max());
+  const Eigen::Vector3d out = (nearest_W - center_W).normalized();
+  if (out.isZero(0.0)) return boxes_m;
+  double extent_m = -std::numeric_limits<double>::infinity();
+  for (const PlacedBody& part : placed_) extent_m = std::max(extent_m, part.extent(out));
+  return std::max(boxes_m, out.dot(nearest_W) - extent_m);
 }
 
 }  // namespace hedgehop::sim

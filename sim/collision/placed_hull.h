@@ -24,6 +24,9 @@ class PlacedHull {
   const std::vector<PlacedBody>& parts() const { return placed_; }
   /// Returns the box along W's axes around all parts, m; empty before place().
   const Eigen::AlignedBox3d& box_W() const { return box_W_; }
+  /// Returns a lower bound of the distance of all parts from a box, m; <= 0 if they may overlap.
+  /// @param reach_m  a larger bound need not be tight.
+  double min_distance_m(const Eigen::AlignedBox3d& box_W, double reach_m) const;
   /// Returns the height of the lowest point above the plane z = 0 of W, m; < 0 below it.
   double ground_clearance_m() const;
 

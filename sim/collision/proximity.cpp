@@ -72,7 +72,8 @@ class CollisionWorld::World {
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reach_m());
     visit_static(hull_.box_W().min() - reach, hull_.box_W().max() + reach,
                  [&](size_t index) { consider_other(id_of_[index], placed_[index]); });
-    surfaces_.visit_near(hull_.box_W(), reach_m, consider_other);
+    surfaces_.visit_near([&](const Eigen::AlignedBox3d& box_W) { return hull_.min_distance_m(box_W, reach_m()); },
+                         reach_m, consider_other);
     if (nearest.id) last_nearest_ = nearest.id;
     for (const MoverBodies& mover_bodies : movers_) {
       const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);

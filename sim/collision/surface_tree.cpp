@@ -25,12 +25,12 @@ AlignedBox3f box_of(const Polyhedron& polyhedron, const std::array<uint32_t, 3>&
 /// Searches the tree for triangles near a box, in the form that Eigen's BVMinimize() asks for.
 struct NearSearch {
   using Scalar = double;
-  AlignedBox3d box_W;
+  const std::function<double(const AlignedBox3d& box_W)>& bound_m;
   const std::function<double()>& reach_m;
   const std::function<void(size_t id)>& visit;
 
   double minimumOnVolume(const AlignedBox3f& volume) const {
-    const double distance_m = box_W.exteriorDistance(volume.cast<double>());
+    const double distance_m = bound_m(volume.cast<double>());
     // Slightly less, so that equally near triangles are all visited.
     constexpr double kEqualM = 1e-12;
     return distance_m <= reach_m() ? distance_m - kEqualM : kNever;
@@ -119,14 +119,14 @@ void SurfaceTree::visit_one(size_t id, const Visit& visit) const {
   visit(id, triangle.placed);
 }
 
-void SurfaceTree::visit_near(const AlignedBox3d& box_W, const std::function<double()>& reach_m,
-                             const Visit& visit) const {
+void SurfaceTree::visit_near(const std::function<double(const AlignedBox3d& box_W)>& distance_m,
+                             const std::function<double()>& reach_m, const Visit& visit) const {
   if (surfaces_.empty()) return;
   // The tree tests the boxes of its nodes only. Most triangles of a node are farther away.
   const std::function<void(size_t)> visit_id = [&](size_t id) {
-    if (box_W.exteriorDistance(box_of_triangle(id).cast<double>()) <= reach_m()) visit_one(id, visit);
+    if (distance_m(box_of_triangle(id).cast<double>()) <= reach_m()) visit_one(id, visit);
   };
-  NearSearch search{box_W, reach_m, visit_id};
+  NearSearch search{distance_m, reach_m, visit_id};
   Eigen::BVMinimize(tree_, search);
 }
 

@@ -36,9 +36,11 @@ class SurfaceTree {
   bool has(size_t id) const;
   /// Calls `visit` with one triangle.
   void visit_one(size_t id, const Visit& visit) const;
-  /// Calls `visit` with every triangle within a distance of a box, nearer boxes first. @param reach_m  the distance, >=
-  /// 0; called after each visit, so that it may shrink.
-  void visit_near(const Eigen::AlignedBox3d& box_W, const std::function<double()>& reach_m, const Visit& visit) const;
+  /// Calls `visit` with every triangle within a distance of a body, nearer boxes first. @param distance_m  lower bound
+  /// of the distance of the body from a box. @param reach_m  the distance, >= 0; called after each visit, so that it
+  /// may shrink.
+  void visit_near(const std::function<double(const Eigen::AlignedBox3d& box_W)>& distance_m,
+                  const std::function<double()>& reach_m, const Visit& visit) const;
   /// Calls `visit` with every triangle whose box a segment meets.
   void visit_along(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, const Visit& visit) const;
 
