@@ -1,6 +1,7 @@
 #include "sim/collision/placed_hull.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -44,7 +45,13 @@ double PlacedHull::min_distance_m(const Eigen::AlignedBox3d& box_W, double reach
   const Eigen::Vector3d out = (nearest_W - center_W).normalized();
   if (out.isZero(0.0)) return boxes_m;
   double extent_m = -std::numeric_limits<double>::infinity();
-  for (const PlacedBody& part : placed_) extent_m = std::max(extent_m, part.extent(out));
+  for (const PlacedBody& part : placed_) {
+    const Eigen::Vector3d out_S = part.X_SW.linear() * out, half_m = part.body->half_extents_m;
+    const double around_m = part.body->shape == ConvexBody::Shape::cylinder
+                                ? out_S.head<2>().norm() * half_m.x() + std::abs(out_S.z()) * half_m.z()
+                                : out_S.cwiseAbs().dot(half_m);
+    extent_m = std::max(extent_m, out.dot(part.X_WS.translation()) + around_m);
+  }
   return std::max(boxes_m, out.dot(nearest_W) - extent_m);
 }
 
