@@ -37,8 +37,12 @@ PendingFile::PendingFile(const fs::path& file) : file_(file), part_(file) {
   } else {
     // path() may be opened for reading and writing only if this descriptor allows both.
     descriptor_ = opened(file_.has_parent_path() ? file_.parent_path() : fs::path("."), O_TMPFILE | O_RDWR);
-    const bool is_unknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL;
-    if (descriptor_ < 0 && is_unknown) {
+    bool is_unknown = descriptor_ < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL);
+    if (descriptor_ >= 0 && ::access(path().c_str(), F_OK) != 0) {  // without /proc it could get no name
+      ::close(std::exchange(descriptor_, -1));
+      is_unknown = true;
+    }
+    if (is_unknown) {
       kind_ = Kind::named;
       descriptor_ = opened(part_, O_RDWR | O_CREAT | O_TRUNC);
     }

@@ -14,9 +14,9 @@ auto uninterrupted(Call call) {
 }
 
 /// A file that has its name only once it is complete. Until then it has no name, so that a killed process
-/// leaves no file. On file systems without such files (O_TMPFILE: NFS, FAT), and for the moment in which it
-/// replaces an existing file, its name is `file`.part. An existing special file (/dev/stdout, a pipe) is opened as it
-/// is. All functions throw std::system_error with the cause alone (full disk, missing permission).
+/// leaves no file. On file systems without such files (O_TMPFILE: NFS, FAT), without /proc, and for the moment in which
+/// it replaces an existing file, its name is `file`.part. An existing special file (/dev/stdout, a pipe) is opened as
+/// it is. All functions throw std::system_error with the cause alone (full disk, missing permission).
 class PendingFile {
  public:
   explicit PendingFile(const std::filesystem::path& file);

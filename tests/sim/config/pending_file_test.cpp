@@ -1,6 +1,8 @@
 #include "sim/config/pending_file.h"
 
 #include <gmock/gmock.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,6 +42,30 @@ TEST(PendingFile, OfAKilledProcessIsAbsent) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_THAT(names_here(), IsEmpty());
+}
+
+/// A container may hide /proc, through which a file gets its name.
+TEST(PendingFile, AppearsWithoutProc) {
+  constexpr int kNotAllowed = 77;
+  const Folder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool hidden = ::unshare(CLONE_NEWNS) == 0 &&
+                        ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+                        ::mount("tmpfs", "/proc", "tmpfs", 0, nullptr) == 0;
+    if (!hidden) ::_exit(kNotAllowed);
+    try {
+      write_file_whole("table.csv", "whole");
+      ::_exit(0);
+    } catch (const std::exception&) {
+      ::_exit(1);
+    }
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WEXITSTATUS(status) == kNotAllowed) GTEST_SKIP() << "only root may hide /proc";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_THAT(names_here(), ElementsAre("table.csv"));
 }
 
 TEST(PendingFile, AppearsWholeAndReplacesAnEarlierFile) {
