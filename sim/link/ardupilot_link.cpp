@@ -110,7 +110,7 @@ std::optional<LinkEnd> ArduPilotLink::answer(const OutsideInput& input) {
 std::variant<OutsideCommand, LinkEnd> ArduPilotLink::wait_for_next(const OutsideInput& input) {
   if (!order_.last()) heard_s_ = source_->now_s();
   for (;;) {
-    const double patience_s = order_.last() ? config_.silence_s : config_.first_packet_s;
+    const double patience_s = order_.last() ? config_.silence_s : config_.start.first_packet_s;
     const auto found = source_->next(input.step, heard_s_ + patience_s);
     if (const auto* const absence = std::get_if<PacketSource::Absence>(&found)) {
       if (!order_.last()) throw InputError("link: " + absence->words);

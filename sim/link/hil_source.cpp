@@ -94,7 +94,7 @@ std::string HilSockets::absence() const {
     return fmt::format("the autopilot ended before its connection: {}; its output: {}", process_->end_words(),
                        process_->log().string());
   }
-  return fmt::format("no autopilot within {:g} s; start: make px4_sitl none_iris", config_.first_packet_s);
+  return fmt::format("no autopilot within {:g} s; start: make px4_sitl none_iris", config_.start.first_packet_s);
 }
 
 std::optional<HilSource::Chunk> HilReplay::recorded(int64_t step, bool is_message) {

@@ -19,8 +19,9 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 template <class Config>
 std::unique_ptr<ChildProcess> started(const Config& config, int64_t port, const Scenario& scenario,
                                       const std::filesystem::path& out) {
-  return std::make_unique<ChildProcess>(filled_command(config.command, config.instance, port, scenario.seed),
-                                        out / "autopilot", out / "autopilot.log");
+  return std::make_unique<ChildProcess>(
+      filled_command(config.start.command, config.start.instance, port, scenario.seed), out / "autopilot",
+      out / "autopilot.log");
 }
 
 /// Opens the link of each kind. A replay does not write over its own recording.
@@ -45,9 +46,9 @@ struct LinkOpening {
 
   std::unique_ptr<PacketSource> packets(ArduPilotLinkConfig config) const {
     if (!options.replay.empty()) return std::make_unique<ReplaySource>(options.replay);
-    config.instance += options.worker;
+    config.start.instance += options.worker;
     auto source = std::make_unique<SocketSource>(config, options.bind);
-    if (!config.command.empty()) source->own(started(config, config.udp_port(), scenario, options.out));
+    if (!config.start.command.empty()) source->own(started(config, config.udp_port(), scenario, options.out));
     return source;
   }
 
@@ -58,9 +59,9 @@ struct LinkOpening {
 
   std::unique_ptr<HilSource> streams(Px4LinkConfig config) const {
     if (!options.replay.empty()) return std::make_unique<HilReplay>(options.replay);
-    config.instance += options.worker;
+    config.start.instance += options.worker;
     auto source = std::make_unique<HilSockets>(config, options.bind);
-    if (!config.command.empty()) source->own(started(config, config.tcp_port(), scenario, options.out));
+    if (!config.start.command.empty()) source->own(started(config, config.tcp_port(), scenario, options.out));
     return source;
   }
 };

@@ -86,8 +86,9 @@ PacketSource::Absence SocketSource::absence() const {
                         process_->end_words(), process_->log().string())};
   }
   if (peer_) return {fmt::format("nothing received for {:g} s", config_.silence_s)};
-  return {fmt::format("no autopilot within {:g} s; start: arducopter --model JSON:127.0.0.1{}", config_.first_packet_s,
-                      config_.instance == 0 ? "" : fmt::format(" -I {}", config_.instance))};
+  return {fmt::format("no autopilot within {:g} s; start: arducopter --model JSON:127.0.0.1{}",
+                      config_.start.first_packet_s,
+                      config_.start.instance == 0 ? "" : fmt::format(" -I {}", config_.start.instance))};
 }
 
 std::optional<PacketSource::Packet> ReplaySource::arrived(int64_t step) {

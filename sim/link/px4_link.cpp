@@ -50,7 +50,8 @@ void Px4Link::prepare(const avoidance::Needs& needs, const avoidance::Setup& set
 std::variant<OutsideCommand, LinkEnd> Px4Link::exchange(const OutsideInput& input) {
   sensors_.observe(input);
   if (input.step == 0) {
-    if (!source_->connect(source_->now_s() + config_.first_packet_s)) throw InputError("link: " + source_->absence());
+    if (!source_->connect(source_->now_s() + config_.start.first_packet_s))
+      throw InputError("link: " + source_->absence());
     next_state_s_ = source_->now_s();
     return command_;
   }
@@ -128,9 +129,9 @@ std::optional<LinkEnd> Px4Link::wait_for_controls(const OutsideInput& input) {
 std::optional<LinkEnd> Px4Link::miss_answer(int64_t step) {
   if (!in_lockstep_) {
     const double waited_s = 1e-6 * static_cast<double>(sensors_.time_us(step));
-    if (waited_s < config_.first_packet_s) return std::nullopt;
+    if (waited_s < config_.start.first_packet_s) return std::nullopt;
     throw InputError(fmt::format("link: no HIL_ACTUATOR_CONTROLS within {:g} s; see the output of PX4's start-up",
-                                 config_.first_packet_s));
+                                 config_.start.first_packet_s));
   }
   ++figures_.unanswered;
   if (++unanswered_in_row_ < kMaxUnanswered) return std::nullopt;

@@ -10,7 +10,7 @@ namespace hedgehop::sim {
 
 /// Lets the autopilot fly from the stand to the start. Collisions count from the stand on.
 void Episode::take_off() {
-  const double start_within_s = std::visit([](const auto& link) { return link.start_within_s; }, *scenario_.link);
+  const double start_within_s = start_of(*scenario_.link).within_s;
   outside_->prepare(pilot_.module().needs(), module_setup(scenario_, environment_.hull));
   aircraft_.reset_on_stand(environment_.collision);
   p_WB_wanted_ = aircraft_.body().p_WB;
@@ -40,9 +40,8 @@ void Episode::take_off() {
 bool Episode::at_start() const {
   if (aircraft_.on_stand()) return false;
   const dynamics::RigidBodyState& body = aircraft_.body();
-  const auto [radius_m, speed_mps] = std::visit(
-      [](const auto& link) { return std::pair(link.start_radius_m, link.start_speed_mps); }, *scenario_.link);
-  return (body.p_WB - p_WB_wanted_).norm() <= radius_m && body.v_WB_B.norm() <= speed_mps;
+  const AutopilotStartConfig& start = start_of(*scenario_.link);
+  return (body.p_WB - p_WB_wanted_).norm() <= start.radius_m && body.v_WB_B.norm() <= start.speed_mps;
 }
 
 OutsideInput Episode::outside_input() {

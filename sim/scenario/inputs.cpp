@@ -39,7 +39,7 @@ std::set<fs::path> named_files(const Scenario& scenario) {
     if (const auto* path = std::get_if<PathToleranceCheck>(&check)) files.insert(path->reference);
   }
   if (scenario.link) {
-    for (const std::string& word : std::visit([](const auto& link) { return link.command; }, *scenario.link)) {
+    for (const std::string& word : start_of(*scenario.link).command) {
       std::error_code ignored;
       if (fs::is_regular_file(word, ignored)) files.insert(word);
     }

@@ -10,6 +10,7 @@
 
 #include "sim/fields/field.h"
 #include "sim/mavlink/companion_config.h"
+#include "sim/scenario/autopilot_start_config.h"
 #include "sim/scenario/px4_link_config.h"
 
 /// The link to an autopilot outside this process, which flies the vehicle instead of Hedgehop's own autopilot.
@@ -125,20 +126,17 @@ struct ArduPilotLinkConfig {
   static constexpr std::string_view kName = "ardupilot_json";
   static constexpr std::string_view kMeaning = "ArduPilot with --model JSON: Hedgehop is its physics, over UDP";
   std::string host = "127.0.0.1";
-  int64_t port = 9002, serial_port = 5760, instance = 0;
-  std::vector<std::string> command;
+  int64_t port = 9002, serial_port = 5760;
+  AutopilotStartConfig start;
   int64_t loop_rate_hz = 400;
   MulticopterLinkConfig multicopter;
   std::optional<HelicopterLinkConfig> helicopter;
   std::vector<LinkRangeFinderConfig> range_finders;
   mavlink::CompanionConfig companion;
-  std::optional<double> stand_altitude_m;  ///< above W's origin, positive up; default: the start's altitude
-  double start_radius_m = 1.0, start_speed_mps = 1.0;
-  double start_within_s = 300.0;
-  double first_packet_s = 60.0, silence_s = 30.0, resend_s = 3.0;  ///< wall times
+  double silence_s = 30.0, resend_s = 3.0;  ///< wall times
 
-  int64_t udp_port() const { return port + 10 * instance; }
-  int64_t tcp_port() const { return serial_port == 0 ? 0 : serial_port + 10 * instance; }
+  int64_t udp_port() const { return port + 10 * start.instance; }
+  int64_t tcp_port() const { return serial_port == 0 ? 0 : serial_port + 10 * start.instance; }
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
@@ -149,29 +147,13 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
      .at_most = 64000,
      .meaning = "TCP port of the autopilot's first serial line; instance N uses serial_port + 10 N; 0: none"});
   v("host", c.host, {.meaning = "numeric address of the autopilot's serial line"});
-  v("instance", c.instance,
-    {.at_least = 0, .at_most = 99, .meaning = "number of the autopilot; parallel flights add their worker's number"});
-  v("command", c.command,
-    {.meaning = "program and arguments that start the autopilot, one for each flight; {instance}, {port} and {seed} "
-                "are replaced; empty: it is started by hand"});
+  describe(v, c.start);
   v("loop_rate", c.loop_rate_hz,
     {.unit = "Hz", .at_least = 50, .at_most = 2000, .meaning = "SCHED_LOOP_RATE: minimum physics rate"});
   v("multicopter", c.multicopter, {.meaning = "motors of a multicopter"});
   v("helicopter", c.helicopter, {.meaning = "servos of a helicopter; required for helicopters"});
   v("companion", c.companion, {.meaning = "messages to the autopilot over its serial line"});
   v("range_finders", c.range_finders, {.meaning = "up to 6 range finders (RNGFNDi_TYPE 100): true distances"});
-  v("stand_altitude", c.stand_altitude_m,
-    {.unit = "m",
-     .meaning = "altitude of the stand that holds the vehicle until its thrust exceeds its weight, above the scene's "
-                "origin; default: the start's altitude"});
-  v("start_radius", c.start_radius_m,
-    {.unit = "m", .above = 0.0, .meaning = "distance from the start within which the flight and its clock begin"});
-  v("start_speed", c.start_speed_mps,
-    {.unit = "m/s", .above = 0.0, .meaning = "maximum speed at which the flight and its clock begin"});
-  v("start_within", c.start_within_s,
-    {.unit = "s", .above = 0.0, .at_most = 3600.0, .meaning = "maximum time of the autopilot before the flight"});
-  v("wait", c.first_packet_s,
-    {.unit = "s", .above = 0.0, .at_most = 3600.0, .meaning = "wall time to wait for the first packet"});
   v("silence", c.silence_s,
     {.unit = "s", .above = 0.0, .at_most = 3600.0, .meaning = "wall time without a packet that ends the flight"});
   v("resend_after", c.resend_s,
@@ -183,5 +165,8 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
 
 /// Any link. The YAML key `type` selects one.
 using LinkConfig = std::variant<ArduPilotLinkConfig, Px4LinkConfig>;
+inline const AutopilotStartConfig& start_of(const LinkConfig& link) {
+  return std::visit([](const auto& chosen) -> const AutopilotStartConfig& { return chosen.start; }, link);
+}
 
 }  // namespace hedgehop::sim

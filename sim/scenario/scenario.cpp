@@ -63,7 +63,7 @@ void resolve_files(std::optional<LinkConfig>& link, const Node& root) {
   if (!link) return;
   const std::filesystem::path folder = std::filesystem::path(position_of(root, "link").file).parent_path();
   for (std::string& word : std::visit(
-           [](auto& chosen) -> auto& { return chosen.command; }, *link)) {
+           [](auto& chosen) -> auto& { return chosen.start.command; }, *link)) {
     std::error_code ignored;
     const std::filesystem::path file = std::filesystem::absolute(folder / word).lexically_normal();
     if (std::filesystem::is_regular_file(file, ignored)) word = file.string();

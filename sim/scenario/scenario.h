@@ -230,7 +230,7 @@ void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
 /// Returns the altitude of the stand of a linked flight, m above W's origin; nullopt if it is the start's.
 inline std::optional<double> stand_altitude_m(const Scenario& scenario) {
   if (!scenario.link) return std::nullopt;
-  return std::visit([](const auto& link) { return link.stand_altitude_m; }, *scenario.link);
+  return start_of(*scenario.link).stand_altitude_m;
 }
 
 /// Returns the result of `make`, which builds a part of a flight from its config. A std::invalid_argument becomes an

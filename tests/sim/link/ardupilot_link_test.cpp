@@ -114,8 +114,8 @@ TEST_F(LinkedAutopilot, SilenceEndsTheFlight) {
 }
 
 TEST_F(LinkedAutopilot, SilenceBeforeTheFlightIsABadInput) {
-  config_.first_packet_s = 0.01;
-  config_.instance = 1;
+  config_.start.first_packet_s = 0.01;
+  config_.start.instance = 1;
   const auto link = open();
   try {
     link->exchange(input(0));

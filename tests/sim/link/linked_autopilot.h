@@ -68,7 +68,7 @@ class LinkedAutopilot : public testing::Test {
     config_.port = free_port();
     config_.serial_port = 0;
     config_.multicopter.frame_type = 0;
-    config_.first_packet_s = config_.silence_s = config_.resend_s = kNeverS;
+    config_.start.first_packet_s = config_.silence_s = config_.resend_s = kNeverS;
   }
 
   std::unique_ptr<ArduPilotLink> open(const std::filesystem::path& recording = {}) {
