@@ -70,8 +70,12 @@ class ModuleProcess : public avoidance::Module {
     request(ModuleCall::reset, setup, image_bytes_);
     try {
       call(request, options_.load_limit_s);
+    } catch (const InputError&) {
+      throw;
     } catch (const ModuleFault& fault) {
       broken_ = fmt::format("{} while it was reset", fault.what());
+    } catch (const std::runtime_error& failure) {
+      broken_ = fmt::format("'{}' failed while it was reset: {}", options_.name, failure.what());
     }
   }
 
@@ -162,13 +166,13 @@ class ModuleProcess : public avoidance::Module {
       throw;
     } catch (const ModuleFault& fault) {
       throw ModuleFault(fmt::format("{} while it was loaded", fault.what()));
-    } catch (const std::runtime_error& refusal) {
-      throw std::invalid_argument(refusal.what());
+    } catch (const std::runtime_error& failure) {
+      throw ModuleFault(fmt::format("'{}' failed while it was loaded: {}", options_.name, failure.what()));
     }
   }
 
-  /// Sends a request and returns its answer. Throws ModuleFault, InputError, or std::runtime_error with the text of
-  /// another std::exception of the module.
+  /// Sends a request and returns its answer. Throws ModuleFault, InputError, or, with the text of another exception of
+  /// the module, std::invalid_argument for a std::logic_error and std::runtime_error otherwise.
   std::string call(const MessageWriter& request, double limit_s) const {
     if (!broken_.empty()) throw ModuleFault(broken_);
     const auto until = after(limit_s);
@@ -203,6 +207,7 @@ class ModuleProcess : public avoidance::Module {
     if (kind == ModuleAnswer::input_error && fields.empty()) throw InputError(lines);
     if (kind == ModuleAnswer::input_error) throw InputError(std::move(fields));
     const std::string line = lines.empty() || lines[0].empty() ? "threw an exception without a text" : lines[0];
+    if (kind == ModuleAnswer::refused) throw std::invalid_argument(line);
     if (kind == ModuleAnswer::fault) throw ModuleFault(fmt::format("'{}' {}", options_.name, line));
     throw std::runtime_error(line);
   }

@@ -25,8 +25,8 @@ struct ModuleProcessOptions {
 /// ModuleFault with the cause, and the process is killed with all its children. All later calls throw the same. A fault
 /// in reset() is thrown by the calls after it, so that the flight has a verdict. annotate() runs in a copy of the
 /// process: whatever it does there cannot change the flight. Throws InputError if `source` throws InputError,
-/// std::invalid_argument with the text of any other std::exception that the module throws while it is made, and
-/// ModuleFault for any other failure.
+/// std::invalid_argument with the text of a std::logic_error that the module throws while it is made, and ModuleFault
+/// for any other failure.
 std::unique_ptr<avoidance::Module> make_module_process(const ModuleSource& source, const ModuleProcessOptions& options);
 
 }  // namespace hedgehop::sim

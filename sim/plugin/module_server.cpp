@@ -11,6 +11,8 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "sim/config/input_error.h"
@@ -19,7 +21,10 @@
 namespace hedgehop::sim {
 namespace {
 
-constexpr size_t kMaxTextBytes = 2000;  // of a fault
+std::string text_of(const std::exception& error) {
+  constexpr size_t kMaxBytes = 2000;
+  return one_line(std::string(error.what()).substr(0, kMaxBytes));
+}
 
 class ModuleServer {
  public:
@@ -110,8 +115,10 @@ class ModuleServer {
       call(done);
     } catch (const InputError& error) {
       fail(ModuleAnswer::input_error, error.errors(), error.field_errors());
+    } catch (const std::logic_error& error) {
+      fail(ModuleAnswer::refused, {text_of(error)}, none);
     } catch (const std::exception& error) {
-      fail(ModuleAnswer::failed, {one_line(std::string(error.what()).substr(0, kMaxTextBytes))}, none);
+      fail(ModuleAnswer::failed, {text_of(error)}, none);
     } catch (...) {
       fail(ModuleAnswer::fault, {"threw an object that is no std::exception"}, none);
     }

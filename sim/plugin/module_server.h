@@ -21,8 +21,9 @@ struct SharedImage {
 enum class ModuleAnswer {
   done,
   input_error,
-  failed,  ///< the module threw a std::exception
-  fault    ///< any other failure of the module
+  refused,  ///< the module threw a std::logic_error, such as std::invalid_argument
+  failed,   ///< the module threw another std::exception
+  fault     ///< any other failure of the module
 };
 
 /// Answers the requests of the channel until it ends, then ends the process. @param memory  file of the images.

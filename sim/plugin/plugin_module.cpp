@@ -101,7 +101,7 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
     module = rows[static_cast<size_t>(row - names.begin())]->make(parameters);
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& bad) {
+  } catch (const std::logic_error& bad) {
     refuse(config, bad.what());
   }
   parameters.finish();
@@ -110,7 +110,15 @@ std::unique_ptr<avoidance::Module> load_module(const PluginConfig& config) {
 }
 
 std::unique_ptr<avoidance::Module> make_plugin_module(const PluginConfig& config, const std::filesystem::path& folder) {
-  if (config.in_process) return load_module(config);
+  if (config.in_process) {
+    try {
+      return load_module(config);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception& failure) {
+      refuse(config, failure.what());
+    }
+  }
   PluginConfig whole = config;  // its process works in another folder
   whole.plugin = std::filesystem::absolute(config.plugin);
   try {

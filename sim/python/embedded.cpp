@@ -59,7 +59,7 @@ std::string words(py::handle raised) {
 
 }  // namespace
 
-/// Creates a module. Throws std::runtime_error with one line.
+/// Creates a module. Throws std::invalid_argument or std::runtime_error with one line.
 extern "C" __attribute__((visibility("default"))) hedgehop::avoidance::Module* hedgehop_make_python_module(
     const hedgehop::sim::PythonRequest& request) {
   try {
@@ -70,6 +70,7 @@ extern "C" __attribute__((visibility("default"))) hedgehop::avoidance::Module* h
     return reinterpret_cast<hedgehop::avoidance::Module*>(address.cast<uintptr_t>());
   } catch (const py::error_already_set& error) {
     const py::gil_scoped_acquire lock;
+    if (error.matches(PyExc_ValueError)) throw std::invalid_argument(words(error.value()));  // of std::invalid_argument
     throw std::runtime_error(words(error.value()));
   }
 }

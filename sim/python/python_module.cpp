@@ -48,7 +48,14 @@ py::object find_attribute(const py::object& object, const char* name) {
   return {};
 }
 
-/// Calls Python with the lock of the interpreter.
+/// Whether an exception means that the module cannot be used as it is configured, and is no failure of a call.
+bool is_refusal(const py::error_already_set& error) {
+  return error.matches(PyExc_ValueError) || error.matches(PyExc_TypeError) || error.matches(PyExc_SyntaxError) ||
+         error.matches(PyExc_ImportError) || error.matches(PyExc_OSError);
+}
+
+/// Calls Python with the lock of the interpreter. An exception of Python becomes std::invalid_argument if it is a
+/// refusal, else std::runtime_error, with its text.
 template <class Call>
 auto locked(const Call& call) {
   const py::gil_scoped_acquire lock;
@@ -57,9 +64,10 @@ auto locked(const Call& call) {
   } catch (const py::error_already_set& error) {
     const std::string message = one_line(error);
     if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised again after the call
+    if (is_refusal(error)) throw std::invalid_argument(message);
     throw std::runtime_error(message);
   } catch (const py::cast_error& error) {
-    throw std::runtime_error(error.what());
+    throw std::invalid_argument(error.what());
   }
 }
 
@@ -67,7 +75,7 @@ auto locked(const Call& call) {
   constexpr size_t kMaxLetters = 80;
   std::string got = py::repr(value);
   if (got.size() > kMaxLetters) got = got.substr(0, kMaxLetters) + "...";
-  throw std::runtime_error("'" + name + "' must be " + expected + ", got " + got);
+  throw std::invalid_argument("'" + name + "' must be " + expected + ", got " + got);
 }
 
 /// Returns the value as a C++ type. Throws std::runtime_error with the expected and the actual value.

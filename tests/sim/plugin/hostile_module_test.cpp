@@ -89,6 +89,11 @@ TEST_F(HostileModule, ThatCrashesOrEndsIsAFault) {
   for (const Attack& attack : attacks(kFatal, {kBeforeFlight, kInFlight})) expect_fault(attack);
 }
 
+/// Only a std::logic_error refuses the parameters.
+TEST_F(HostileModule, ThatThrowsARuntimeErrorIsAFault) {
+  for (const Attack& attack : attacks({"raise_exception"}, {kBeforeFlight, kInFlight})) expect_fault(attack);
+}
+
 /// Before the flight, the limit is 60 s.
 TEST_F(HostileModule, ThatDoesNotReturnIsAFault) {
   const bool all = std::getenv("HEDGEHOP_ATTACKS") != nullptr;
