@@ -131,8 +131,8 @@ class Clearance(unittest.TestCase):
                     else:
                         self.assertEqual((low, high), (0.0, 0.0))
                     rows += 1
-            least = min(row["clearance_m"] for row in flight.rows)
-            self.assertLessEqual(flight.result["min_obstacle_clearance_m"], least + EXACT_M)
+            minimum_m = min(row["clearance_m"] for row in flight.rows)
+            self.assertLessEqual(flight.result["min_obstacle_clearance_m"], minimum_m + EXACT_M)
         self.assertGreater(rows, 5)
         print(f"{rows} rows")
 
