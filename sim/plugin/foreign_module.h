@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 /// config says `in_process`. @param folder  working folder of that process; empty: a temporary one. Throws
 /// std::invalid_argument on an invalid config of a module of this tree, and InputError with the library if it is
 /// missing or invalid, was built against another interface, lacks the module, or refuses its parameters. Throws
-/// ModuleFault if the module crashes, ends its process or hangs while it is made.
+/// ModuleFault if the module fails in another way while it is made.
 std::unique_ptr<avoidance::Module> make_module(const AvoidanceConfig& config, const std::filesystem::path& folder = {});
 
 /// The module that an interpreter must make.
@@ -22,7 +22,8 @@ struct PythonRequest {
   std::string file, class_name;
   std::string parameters;  ///< keyword arguments of the class: a JSON object
 };
-/// Throws std::exception with one line if the class does not exist or raises an exception.
+/// Throws std::invalid_argument with one line if the class does not exist or refuses its parameters, and another
+/// std::exception with one line if it raises another exception.
 using PythonMaker = std::function<std::unique_ptr<avoidance::Module>(const PythonRequest&)>;
 
 /// Sets the running interpreter that makes modules in Python, in this process. Without it, each such module loads an

@@ -78,7 +78,7 @@ auto locked(const Call& call) {
   throw std::invalid_argument("'" + name + "' must be " + expected + ", got " + got);
 }
 
-/// Returns the value as a C++ type. Throws std::runtime_error with the expected and the actual value.
+/// Returns the value as a C++ type. Throws std::invalid_argument with the expected and the actual value.
 template <class T>
 T as(const py::handle& value, const std::string& name, const std::string& expected) {
   try {
