@@ -1,10 +1,13 @@
-"""Images per second of `hedgehop dataset` on one core, and the memory of meshes with large images or many nodes.
+"""Images per second of `hedgehop dataset` on one core, the memory of meshes with large images or many nodes, and the import of a
+mesh of a million triangles with a flight past it.
 
 A data set has 640 x 480 px in all channels: color, depth, optic flow, classes and instances of the city, noise-free. Its CPU
 time contains the construction of the city; that of the images alone is the difference between many images and one.
 """
 
+import array
 import json
+import math
 import shutil
 import struct
 import zlib
@@ -14,6 +17,8 @@ from logs import measured
 IMAGES = 200
 CAMERA = "rig.cameras.0={role: front, width: 640, height: 480, fov: 75, rate: 10, channel: color}"
 SIDE_PX, NODES = 8192, 10_000
+CAMERA_PAST = "rig.cameras=[{role: front, width: 640, height: 480, fov: 75, rate: 10, channel: color, forward: 0.3}]"
+SPHERE_ROWS, FLIGHT_S = 708, 9  # 708 x 708 squares are 1,002,528 triangles
 
 
 def dataset(root, hedgehop, images):
@@ -55,6 +60,49 @@ def imported(root, hedgehop, name, nodes, side_px):
                      "-o", folder / "seen.png"])
 
 
+def wavy_sphere(rows):
+    """A GLB of a closed sphere of 8 m radius with waves of 0.3 m, of 2 * rows^2 triangles."""
+    positions, indices = array.array("f"), array.array("I")
+    for i in range(rows + 1):
+        for k in range(rows):
+            polar, around = math.pi * i / rows, 2 * math.pi * k / rows
+            radius = 8 + 0.3 * math.sin(9 * polar) * math.cos(7 * around)
+            positions.extend((radius * math.sin(polar) * math.cos(around), radius * math.cos(polar),
+                              -radius * math.sin(polar) * math.sin(around)))
+    for i in range(rows):
+        for k in range(rows):
+            a, b, below = i * rows + k, i * rows + (k + 1) % rows, rows
+            indices.extend((a, a + below, b, b, a + below, b + below))
+    points, faces = positions.tobytes(), indices.tobytes()
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions) // 3, "type": "VEC3",
+                               "min": [min(positions[n::3]) for n in range(3)], "max": [max(positions[n::3]) for n in range(3)]},
+                              {"bufferView": 1, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
+                "bufferViews": [{"buffer": 0, "byteLength": len(points)}, {"buffer": 0, "byteOffset": len(points), "byteLength": len(faces)}],
+                "buffers": [{"byteLength": len(points) + len(faces)}]}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    body = points + faces
+    return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(body)) + struct.pack("<I4s", len(text), b"JSON") + text
+            + struct.pack("<I4s", len(body), b"BIN\0") + body)
+
+
+def past_sphere(root, hedgehop):
+    """Validates a scenario with the sphere beside the route, 5 m away, and flies it. Returns the figures of the validation, and
+    the time flown over the CPU time of the flight without its start."""
+    folder = root / "out/bench/sphere"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "sphere.glb").write_bytes(wavy_sphere(SPHERE_ROWS))
+    scene = f"scene={{type: open, imports: [{{file: {json.dumps(str(folder / 'sphere.glb'))}, north: 15, east: 13, down: -8}}]}}"
+    settings = [word for text in (scene, CAMERA_PAST, "start.altitude=8", "goal.altitude=8", "checks=[]") for word in ("--set", text)]
+    file = root / "configs/worlds/wall.yaml"
+    imported = measured([hedgehop, "validate", file, *settings])
+    fly = lambda seconds: measured([hedgehop, "run", file, *settings, "--set", f"duration={seconds}", "--renderer", "tiles", "--no-video",
+                                    "--no-report", "--out", folder / "flight"])[1]
+    return imported, (FLIGHT_S - 0.1) / (fly(FLIGHT_S) - fly(0.1))
+
+
 def run(root, hedgehop):
     print(f"{'data set of the city, 640 x 480 px':48} {'images/CPU s':>13} {'wall s':>9} {'CPU s':>9} {'peak MB':>9}")
     _, one_s, _ = dataset(root, hedgehop, 1)
@@ -64,3 +112,6 @@ def run(root, hedgehop):
     for name, nodes, side_px in (("image of 8192 x 8192 px", 1, SIDE_PX), ("mesh of 10,000 nodes", NODES, 64)):
         wall_s, cpu_s, peak_mb = imported(root, hedgehop, name.replace(" ", "-").replace(",", ""), nodes, side_px)
         print(f"{name:48} {'':>13} {wall_s:9.1f} {cpu_s:9.1f} {peak_mb:9.0f}", flush=True)
+    (wall_s, cpu_s, peak_mb), speed = past_sphere(root, hedgehop)
+    print(f"{'mesh of 1,002,528 triangles: validation':48} {'':>13} {wall_s:9.1f} {cpu_s:9.1f} {peak_mb:9.0f}", flush=True)
+    print(f"{'flight 5 m past it, times real time by CPU time':48} {speed:13.1f}", flush=True)
