@@ -89,7 +89,7 @@ def wavy_sphere(rows):
 
 
 def past_sphere(root, hedgehop):
-    """Validates a scenario with the sphere beside the route, 5 m away, and flies it. Returns the figures of the validation, and
+    """Validates a scenario with the sphere 5 m from the route and flies it. Returns the figures of the validation, and
     the time flown over the CPU time of the flight without its start."""
     folder = root / "out/bench/sphere"
     folder.mkdir(parents=True, exist_ok=True)
