@@ -4,7 +4,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 hedgehop_offer(sim/libm sim/fields vision avoidance
-               scenes dynamics sim/config sim/mavlink sim/scenario sim/render sim/collision sim/plugin sim/flight sim/verdict sim/loop sim/simulation)
+               scenes dynamics sim/config sim/mavlink sim/scenario sim/render sim/collision sim/plugin sim/flight sim/verdict sim/loop sim/simulation
+               sim/record)  # for the Python package of another interpreter
 add_library(hedgehop_sim INTERFACE)
 target_link_libraries(hedgehop_sim INTERFACE hedgehop_sim_simulation)
 set_target_properties(hedgehop_sim PROPERTIES EXPORT_NAME sim)

@@ -64,8 +64,9 @@ std::optional<fs::path> interpreter_library() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   std::vector<fs::path> packages = {program / "..", program / "../../python/hedgehop"};
   for (const fs::directory_entry& folder : fs::directory_iterator(program / "../lib", error)) {
-    if (folder.path().filename().string().starts_with("python3"))
-      packages.push_back(folder.path() / "dist-packages/hedgehop");
+    if (!folder.path().filename().string().starts_with("python3")) continue;
+    for (const char* const packages_of : {"dist-packages", "site-packages"})
+      packages.push_back(folder.path() / packages_of / "hedgehop");
   }
   std::ranges::sort(packages.begin() + 2, packages.end());
   for (const fs::path& package : packages) {
@@ -79,8 +80,8 @@ PythonMaker load_maker(const PythonConfig& config) {
   const std::optional<fs::path> library = interpreter_library();
   if (!library) {
     refuse(config,
-           "this program has no Python; install the package python3-hedgehop, or build with python3-dev, "
-           "pybind11-dev and python3-numpy");
+           "this program has no Python; install the package python3-hedgehop, or build with python3-dev and "
+           "pybind11-dev, for a Python that has a shared library");
   }
   // Python's own extensions look its symbols up globally.
   void* const handle = ::dlopen(library->c_str(), RTLD_NOW | RTLD_GLOBAL);

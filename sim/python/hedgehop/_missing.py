@@ -18,7 +18,7 @@ def explain(init_file):
     this = f"Python {sys.version_info.major}.{sys.version_info.minor} ({sys.executable})"
     if others:
         versions = ", ".join(f"{version[0]}.{version[1:]}" for version in others)
-        raise ImportError(f"hedgehop in {folder} was built for Python {versions}, and this is {this}; use /usr/bin/python3, or a "
-                          "virtual environment of it: /usr/bin/python3 -m venv --system-site-packages DIR")
+        raise ImportError(f"hedgehop in {folder} was built for Python {versions}, and this is {this}; use Python {versions}, or "
+                          f"build for this one in the source checkout: {sys.executable} -m pip install .")
     raise ImportError(f"the compiled part of hedgehop is missing in {folder}; build it in the source checkout: "
                       "scripts/packages python && scripts/build hedgehop_package")

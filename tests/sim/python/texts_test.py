@@ -1,5 +1,6 @@
 """Public classes have docstrings and texts with their values; a package with missing parts names them."""
 
+import ast
 import importlib.util
 import pathlib
 import subprocess
@@ -10,7 +11,7 @@ import unittest
 import numpy as np
 
 import hedgehop
-from flights import SHORT, TREE
+from flights import SHORT, SOURCE, TREE
 
 CLASSES = [value for value in (getattr(hedgehop, name) for name in hedgehop.__all__) if isinstance(value, type)]
 MISSING = pathlib.Path(hedgehop.__file__).parent / "_missing.py"
@@ -55,6 +56,12 @@ class Texts(unittest.TestCase):
         ray = left.rays()[0, 0]
         p = left.pinhole
         np.testing.assert_allclose(ray / ray[2], [-p["center_u_px"] / p["focal_x_px"], -p["center_v_px"] / p["focal_y_px"], 1])
+
+
+class Sources(unittest.TestCase):
+    def test_they_are_python_3_9(self):
+        for file in (SOURCE / "sim/python/hedgehop").glob("*.py"):
+            ast.parse(file.read_text(), str(file), feature_version=(3, 9))
 
 
 class Missing(unittest.TestCase):
