@@ -38,8 +38,26 @@ hedgehop_package(hedgehop_zstd zstd.h LIBRARIES zstd)
 hedgehop_package(hedgehop_lz4 lz4frame.h LIBRARIES lz4)
 hedgehop_package(hedgehop_tiff tiffio.h LIBRARIES tiff OPTIONAL)
 hedgehop_package(hedgehop_webp webp/decode.h LIBRARIES webp OPTIONAL)
-# Clearances must be accurate to 1 mm at a distance of 1 km from the origin, so Hedgehop uses Bullet's double-precision build,
-# which Debian ships in addition to the single-precision one. All users of the header must see the same btScalar.
+# Clearances must be accurate to 1 mm at a distance of 1 km from the origin, so Hedgehop uses Bullet's double-precision build.
+# In Debian, it has a suffix and is next to the single-precision one; a build of Bullet's own sources has no suffix. All users
+# of the header must see the same btScalar.
+find_library(HEDGEHOP_BULLET_FLOAT64 BulletCollision-float64)
+set(suffix)
+if(HEDGEHOP_BULLET_FLOAT64)
+  set(suffix -float64)
+endif()
 hedgehop_package(hedgehop_bullet btBulletCollisionCommon.h PATH bullet
-                 LIBRARIES BulletCollision-float64 LinearMath-float64)
+                 LIBRARIES BulletCollision${suffix} LinearMath${suffix})
 target_compile_definitions(hedgehop_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
+if(NOT HEDGEHOP_BULLET_FLOAT64)
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_LIBRARIES hedgehop_bullet)
+  # Links only if the library has the function for btScalar = double.
+  check_cxx_source_compiles("#include <btBulletCollisionCommon.h>
+    int main() { return btCapsuleShape(1.0, 2.0).getHalfHeight() < 0; }" HEDGEHOP_BULLET_IS_DOUBLE)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(NOT HEDGEHOP_BULLET_IS_DOUBLE)
+    message(FATAL_ERROR "${HEDGEHOP_BULLET_BulletCollision} is single precision. Build Bullet with -DUSE_DOUBLE_PRECISION=ON "
+                        "-DBUILD_SHARED_LIBS=ON, install it into DIR and set CMAKE_PREFIX_PATH=DIR")
+  endif()
+endif()
