@@ -112,8 +112,9 @@ std::vector<SectorSource> sector_sources(const PerceptionConfig& config, const a
     if (need.channel == CameraNeed::Channel::depth) sources.emplace_back(mounted_camera(setup, need.role), limits);
     if (!has_grey(need.role) || !need.role.ends_with(left_end)) continue;
     const std::string prefix = need.role.substr(0, need.role.size() - left_end.size());
-    if ((!prefix.empty() && !prefix.ends_with("_")) || !has_grey(prefix + right_end)) continue;
-    const MountedCamera &left = mounted_camera(setup, need.role), &right = mounted_camera(setup, prefix + right_end);
+    const std::string right_role = prefix + right_end;
+    if ((!prefix.empty() && !prefix.ends_with("_")) || !has_grey(right_role)) continue;
+    const MountedCamera &left = mounted_camera(setup, need.role), &right = mounted_camera(setup, right_role);
     if (!is_parallel_pair(left, right)) continue;
     sources.emplace_back(prefix.substr(0, prefix.empty() ? 0 : prefix.size() - 1), left, right, config.stereo, limits);
   }
