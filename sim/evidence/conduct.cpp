@@ -176,7 +176,7 @@ Json conduct_data(const std::filesystem::path& folder) {
   data["sequential"] = batch.at("sequential");
   if (Json& plan = data.at("plan"); !plan.is_null()) {
     const std::string now = sha256(raw_name(plan.at("file").get<std::string>()));
-    plan["now"] = now == plan.at("sha256") ? "same" : now == "missing" ? "gone" : "changed";
+    plan["now"] = now == plan.at("sha256").get<std::string>() ? "same" : now == "missing" ? "gone" : "changed";
   }
   return data;
 }
