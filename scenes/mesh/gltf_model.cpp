@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "scenes/mesh/gltf_file.h"
 #include "scenes/mesh/gltf_material.h"
+#include "scenes/mesh/gltf_primitive.h"
 #include "scenes/mesh/make_room.h"
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/model.h"
@@ -21,7 +21,6 @@ namespace hedgehop::scenes::mesh {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 using Json = GltfFile::Json;
 
 constexpr size_t kMaxCorners = 3 * kMaxTriangles;
@@ -93,15 +92,6 @@ class GltfModel {
   }
 
  private:
-  /// A list of triangles of one material in the frame of its mesh.
-  struct Primitive {
-    size_t material = 0;
-    std::vector<Vector3d> corners, normals;
-    std::vector<Eigen::Vector2f> uvs;
-    std::vector<Vector3f> colors;
-    std::vector<std::array<uint32_t, 3>> faces;
-  };
-
   std::vector<size_t> roots() const {
     const Json& json = file_.json();
     if (json.contains("scenes")) {
@@ -149,15 +139,16 @@ class GltfModel {
     if (is_new) {
       GltfFile::in_element("meshes", index, [&, &primitives = at->second] {
         for (const Json& json : file_.element("meshes", index).at("primitives")) {
-          if (std::optional<Primitive> triangles = read_primitive(json)) primitives.push_back(*std::move(triangles));
+          if (auto triangles = read_gltf_primitive(file_, json, materials_, model_.unrendered))
+            primitives.push_back(*std::move(triangles));
         }
       });
     }
-    for (const Primitive& primitive : at->second) add_primitive(primitive, transform);
+    for (const GltfPrimitive& primitive : at->second) add_primitive(primitive, transform);
   }
 
   // Appends triangles to the part of their material. A transform that mirrors reverses their winding.
-  void add_primitive(const Primitive& primitive, const Eigen::Affine3d& transform) {
+  void add_primitive(const GltfPrimitive& primitive, const Eigen::Affine3d& transform) {
     Part& part = parts_[primitive.material];
     part.material = primitive.material;
     corners_ += primitive.corners.size();
@@ -183,123 +174,12 @@ class GltfModel {
     }
   }
 
-  std::optional<Primitive> read_primitive(const Json& json) {
-    constexpr size_t kTriangles = 4, kFan = 6;  // below: points and lines; between: strips
-    const size_t mode = GltfFile::count_at(json, "mode", kTriangles);
-    if (mode > kFan) fail_gltf("a primitive has the mode " + std::to_string(mode) + "; valid: 0 to 6");
-    if (mode < kTriangles) {
-      model_.unrendered.insert("points and lines");
-      return std::nullopt;
-    }
-    if (json.contains("targets")) model_.unrendered.insert("morph targets");
-    const Json& attributes = json.at("attributes");
-    if (!attributes.contains("POSITION")) return std::nullopt;
-    Primitive result;
-    result.material = std::min(GltfFile::count_at(json, "material", materials_.size()), materials_.size() - 1);
-    result.corners = vectors(attributes, "POSITION");
-    std::vector<uint32_t> indices(result.corners.size());
-    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    if (json.contains("indices")) indices = file_.indices(GltfFile::count_at(json, "indices"));
-    for (const uint32_t index : indices) {
-      if (index >= result.corners.size()) fail_gltf("an index is out of range");
-    }
-    add_faces(indices, mode == kTriangles, mode == kFan, result);
-    read_look(attributes, result);
-    return result;
-  }
-
-  static void add_faces(const std::vector<uint32_t>& indices, bool is_list, bool is_fan, Primitive& result) {
-    result.faces.reserve(is_list ? indices.size() / 3 : indices.size());
-    for (size_t i = 0; i + 2 < indices.size(); i += is_list ? 3 : 1) {
-      const uint32_t a = indices[is_fan ? 0 : i], b = indices[i + 1], c = indices[i + 2];
-      const bool is_odd = !is_list && !is_fan && i % 2 == 1;
-      result.faces.push_back(is_odd ? std::array{a, c, b} : std::array{a, b, c});
-    }
-  }
-
-  // Reads normals, image coordinates and colors. Without normals, the faces are flat.
-  void read_look(const Json& attributes, Primitive& result) {
-    const GltfMaterial& material = materials_[result.material];
-    const std::string uvs = "TEXCOORD_" + std::to_string(material.uv_set);
-    const bool is_flat = !attributes.contains("NORMAL");
-    if (!is_flat) result.normals = vectors(attributes, "NORMAL");
-    result.uvs.assign(result.corners.size(), Eigen::Vector2f::Zero());
-    if (material.look.image && attributes.contains(uvs)) {
-      const GltfNumbers read = numbers(attributes, uvs, 2, result.corners.size());
-      for (size_t i = 0; i < result.uvs.size(); ++i) {
-        result.uvs[i] = material.uv_transform * Eigen::Vector2f(read.values[2 * i], read.values[2 * i + 1]);
-      }
-    }
-    result.colors.assign(result.corners.size(), material.look.color);
-    if (attributes.contains("COLOR_0")) read_colors(attributes, material.look, result);
-    if (is_flat) flatten(result);
-  }
-
-  void read_colors(const Json& attributes, const Material& look, Primitive& result) {
-    const GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, "COLOR_0"));
-    if (read.components < 3 || read.count() != result.corners.size())
-      fail_gltf("the attribute COLOR_0 has a wrong size");
-    for (size_t i = 0; i < result.colors.size(); ++i) {
-      for (size_t k = 0; k < 3; ++k) {
-        const float value = read.values[read.components * i + k];
-        const float linear = value > 0.0f ? std::min(value, 1.0f) : 0.0f;  // 0 also for NaN
-        if (look.image && linear < 1.0f) model_.unrendered.insert("vertex colors on an image ('" + look.name + "')");
-        const auto channel = static_cast<Eigen::Index>(k);
-        result.colors[i][channel] = srgb_of_linear(linear * look.tint[channel]);
-      }
-    }
-  }
-
-  // Gives each triangle corners of its own, with its normal.
-  static void flatten(Primitive& p) {
-    Primitive flat;
-    flat.material = p.material;
-    const size_t corners = 3 * p.faces.size();
-    flat.corners.reserve(corners);
-    flat.normals.reserve(corners);
-    flat.uvs.reserve(corners);
-    flat.colors.reserve(corners);
-    flat.faces.reserve(p.faces.size());
-    for (const auto& face : p.faces) {
-      const Vector3d across = (p.corners[face[1]] - p.corners[face[0]]).cross(p.corners[face[2]] - p.corners[face[0]]);
-      const auto first = static_cast<uint32_t>(flat.corners.size());
-      for (const uint32_t i : face) {
-        flat.corners.push_back(p.corners[i]);
-        flat.normals.push_back(across.normalized());
-        flat.uvs.push_back(p.uvs[i]);
-        flat.colors.push_back(p.colors[i]);
-      }
-      flat.faces.push_back({first, first + 1, first + 2});
-    }
-    p = std::move(flat);
-  }
-
-  GltfNumbers numbers(const Json& attributes, const std::string& name, size_t components, size_t count) const {
-    GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, name.c_str()));
-    if (read.components != components || read.count() != count)
-      fail_gltf("the attribute " + name + " has a wrong size");
-    return read;
-  }
-
-  std::vector<Vector3d> vectors(const Json& attributes, const char* name) const {
-    const GltfNumbers read = file_.numbers(GltfFile::count_at(attributes, name));
-    const size_t count =
-        GltfFile::count_at(file_.element("accessors", GltfFile::count_at(attributes, "POSITION")), "count");
-    if (read.components != 3 || read.count() != count)
-      fail_gltf(std::string("the attribute ") + name + " has a wrong size");
-    std::vector<Vector3d> result(count);
-    for (size_t i = 0; i < count; ++i) {
-      result[i] = Eigen::Map<const Vector3f>(read.values.data() + 3 * i).cast<double>();
-    }
-    return result;
-  }
-
   GltfFile file_;
   Vector3d origin_;
   Model model_;
   std::vector<GltfMaterial> materials_;
   std::vector<Part> parts_;
-  std::map<size_t, std::vector<Primitive>> meshes_;
+  std::map<size_t, std::vector<GltfPrimitive>> meshes_;
   size_t triangles_ = 0, corners_ = 0;
 };
 
