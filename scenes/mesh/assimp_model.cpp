@@ -1,7 +1,5 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <Eigen/LU>
-#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
 #include <optional>
@@ -12,7 +10,6 @@
 
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/model.h"
-#include "scenes/mesh/mtl_file.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -80,60 +77,38 @@ Part part_of(const aiMesh& mesh, size_t uv_set) {
   return part;
 }
 
-// Applies the scale and offset of an MTL image, whose v is upward.
-void transform_uvs(const MtlMaterial& material, Part& part) {
-  if (material.uv_scale == Eigen::Vector2f::Ones() && material.uv_offset == Eigen::Vector2f::Zero()) return;
-  for (Eigen::Vector2f& uv : part.uvs) {
-    const Eigen::Vector2f upward(uv.x(), 1.0f - uv.y());
-    const Eigen::Vector2f moved = material.uv_scale.cwiseProduct(upward) + material.uv_offset;
-    uv = {moved.x(), 1.0f - moved.y()};
-  }
-}
-
-Model read_by_importer(const std::filesystem::path& file, std::string text, const ModelOrigin& origin) {
-  const Eigen::Matrix3d level = level_axes(origin.z_is_up, false);
-  const Vector3d& o = origin.east_north_up;
-  Vector3d origin_W = level.transpose() * Vector3d(o.y(), o.x(), -o.z());
+// Reads a file with the importer. @param origin  nullopt: without its triangles.
+Model read_by_importer(const std::filesystem::path& file, const std::string& text,
+                       const std::optional<ModelOrigin>& origin) {
   Model model;
-  ObjMaterials obj;
-  const bool is_obj = suffix_of(file) == ".obj";
-  if (is_obj) {
-    obj = obj_materials(file, text);
-    text = with_leading_zeros(text);
-    if (!origin_W.isZero(0.0)) text = subtracted(text, std::exchange(origin_W, Vector3d::Zero()));
-    model.unrendered = obj.unrendered;
-  }
   Assimp::Importer importer;
-  read_mesh(file, text, importer, &model.files);
-  model.files.merge(obj.files);
-  const aiScene* const scene =
-      importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenNormals |
-                                   aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_FlipUVs);
-  if (!scene || !scene->mRootNode) throw std::invalid_argument(importer.GetErrorString());
+  const aiScene* scene = &read_mesh(file, text, importer, &model.files);
+  if (origin) {
+    // Not aiProcess_JoinIdenticalVertices, which takes 17 s per million triangles.
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_PreTransformVertices |
+                                         aiProcess_SortByPType | aiProcess_FlipUVs);
+    if (!scene || !scene->mRootNode) throw std::invalid_argument(importer.GetErrorString());
+  }
 
-  std::vector<const MtlMaterial*> mtl(scene->mNumMaterials, nullptr);
   std::vector<size_t> uv_sets(scene->mNumMaterials, 0);
   for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
     const aiMaterial& read = *scene->mMaterials[i];
-    const auto named = obj.by_name.find(std::string_view(read.GetName().C_Str()));
-    if (named != obj.by_name.end()) mtl[i] = &named->second;
-    model.materials.push_back(mtl[i] ? mtl[i]->look : material_of(*scene, read, file.parent_path(), model.unrendered));
+    model.materials.push_back(material_of(*scene, read, file.parent_path(), model.unrendered));
     int uv_set = 0;
-    if (!is_obj && read.Get(AI_MATKEY_UVWSRC_DIFFUSE(0), uv_set) == AI_SUCCESS && uv_set >= 0 &&
+    if (read.Get(AI_MATKEY_UVWSRC_DIFFUSE(0), uv_set) == AI_SUCCESS && uv_set >= 0 &&
         uv_set < AI_MAX_NUMBER_OF_TEXTURECOORDS) {
       uv_sets[i] = static_cast<size_t>(uv_set);
     }
   }
+  if (!origin) return model;
+  const Vector3d origin_of_model = origin_in_model(*origin, false);
   for (const aiMesh* mesh : std::span(scene->mMeshes, scene->mNumMeshes)) {
     Part part = part_of(*mesh, uv_sets[mesh->mMaterialIndex]);
     if (part.body.faces.empty()) {
       model.unrendered.insert("points and lines");
       continue;
     }
-    if (!origin_W.isZero(0.0)) {
-      for (Vector3d& corner : part.body.corners) corner -= origin_W;
-    }
-    if (mtl[part.material]) transform_uvs(*mtl[part.material], part);
+    for (Vector3d& corner : part.body.corners) corner -= origin_of_model;
     model.parts.push_back(std::move(part));
   }
   return model;
@@ -153,30 +128,25 @@ Eigen::Matrix3d level_axes(bool z_is_up, bool front_is_z) {
   return level;
 }
 
-namespace {
-
-Model obj_looks(const std::filesystem::path& file, std::string_view text) {
-  ObjMaterials obj = obj_materials(file, text);
-  Model model;
-  for (const auto& [name, material] : obj.by_name) model.materials.push_back(material.look);
-  model.files = std::move(obj.files);
-  model.files.insert(file.lexically_normal());
-  return model;
+Vector3d origin_in_model(const ModelOrigin& origin, bool front_is_z) {
+  const Vector3d& o = origin.east_north_up;
+  return level_axes(origin.z_is_up, front_is_z).transpose() * Vector3d(o.y(), o.x(), -o.z());
 }
+
+namespace {
 
 /// Reads a file of an allowed form. @param origin  nullopt: the materials are sufficient.
 Model read_file(const std::filesystem::path& file, const std::optional<ModelOrigin>& origin) {
-  std::string text = require_importable(file);
+  const std::string text = require_importable(file);
   const std::string suffix = suffix_of(file);
-  const ModelOrigin from = origin.value_or(ModelOrigin());
   try {
-    if (suffix == ".obj" && !origin) return obj_looks(file, text);
-    if (suffix != ".gltf" && suffix != ".glb") return read_by_importer(file, std::move(text), from);
+    if (suffix == ".obj") return origin ? read_obj(file, text, *origin) : read_obj_materials(file, text);
+    if (suffix != ".gltf" && suffix != ".glb") return read_by_importer(file, text, origin);
     try {
-      return origin ? read_gltf(file, from) : read_gltf_materials(file);
+      return origin ? read_gltf(file, *origin) : read_gltf_materials(file);
     } catch (const OldGltf& old) {
       if (old.nodes > kMaxOldNodes) throw;
-      return read_by_importer(file, std::move(text), from);
+      return read_by_importer(file, text, origin);
     }
   } catch (const std::invalid_argument&) {
     throw;

@@ -60,10 +60,8 @@ Eigen::Affine3d transform_of(const Json& node) {
 // Reads the triangles of a file, in the frame of the scene, with one part for each material.
 class GltfModel {
  public:
-  GltfModel(const std::filesystem::path& file, const ModelOrigin& origin) : file_(file) {
-    const Eigen::Matrix3d level = level_axes(origin.z_is_up, true);
-    const Vector3d& o = origin.east_north_up;
-    origin_ = level.transpose() * Vector3d(o.y(), o.x(), -o.z());
+  GltfModel(const std::filesystem::path& file, const ModelOrigin& origin)
+      : file_(file), origin_(origin_in_model(origin, true)) {
     require_extensions(file_.json(), model_.unrendered);
     if (file_.json().contains("animations")) model_.unrendered.insert("animations");
     if (file_.json().contains("skins")) model_.unrendered.insert("skins");

@@ -138,18 +138,6 @@ bool has_chunks(std::string_view glb) {
   return true;
 }
 
-/// Returns the number of faces: lines that begin with `f`. Their memory in the importer far exceeds their size in the
-/// file.
-size_t faces(std::string_view obj) {
-  size_t count = 0;
-  bool at_start = true;
-  for (const char c : obj) {
-    if (at_start && c == 'f') ++count;
-    at_start = c == '\n' || (at_start && (c == ' ' || c == '\t'));
-  }
-  return count;
-}
-
 }  // namespace
 
 bool may_be_read(const std::filesystem::path& file) {
@@ -193,14 +181,10 @@ std::string require_importable(const std::filesystem::path& mesh) {
   refuse_if(suffix == ".dae" && has_bad_indices(text), "its indices (<p>, <v> or <vcount>) are not whole numbers");
   refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
-  refuse_if(suffix == ".obj" && faces(text) > kMaxTriangles,
-            "it has more than " + std::to_string(kMaxTriangles) + " faces");
   return suffix == ".obj" && text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
 }
 
 namespace {
-
-constexpr unsigned kMaxFaceCorners = 1000;
 
 /// Opens regular files only. The mesh names its materials and buffers, which could be pipes or devices.
 class GuardedFiles : public Assimp::DefaultIOSystem {
@@ -210,10 +194,9 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
 
   bool Exists(const char* file) const override {  // assimp's version opens the file
     std::error_code error;
-    return !is_hidden(file) && std::filesystem::exists(file, error);
+    return std::filesystem::exists(file, error);
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (is_hidden(file)) return nullptr;
     if (Exists(file) && !may_be_read(file)) {
       throw std::invalid_argument(std::string("its file '") + file + "' is not a regular file of at most 256 MB");
     }
@@ -225,8 +208,6 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   }
 
  private:
-  /// Whether it is a material file, which obj_materials() reads; the importer fails at keywords of extensions.
-  bool is_hidden(const std::filesystem::path& file) const { return suffix_of(mesh_) == ".obj" && file != mesh_; }
   std::string mesh_;  ///< its contents are `text_`
   const std::string& text_;
   std::set<std::filesystem::path>* opened_;

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/mesh/polyhedron.h"
@@ -66,12 +67,22 @@ struct ModelOrigin {
 /// Returns the directions north, east and down in the model's axes, as rows, for a heading of 0.
 Eigen::Matrix3d level_axes(bool z_is_up, bool front_is_z);
 
+/// Returns an origin in the model's axes. @param front_is_z  as level_axes() has it.
+Eigen::Vector3d origin_in_model(const ModelOrigin& origin, bool front_is_z);
+
 /// Returns the contents of a mesh file. Throws std::invalid_argument with the reason, without the file's name.
 Model read_model(const std::filesystem::path& file, const ModelOrigin& origin);
 
-/// Returns a model without parts: its materials and files. The triangles are read only if the format needs them for
-/// that (all but OBJ and glTF 2). Throws as read_model() does.
+/// Returns a model without parts: its materials and files. Throws as read_model() does, but finds fewer faults.
 Model read_materials(const std::filesystem::path& file);
+
+/// Returns the contents of an OBJ file: its polygons as triangles. Faces without normals are flat. Lines, points and
+/// faces of one or two corners are reported.
+/// @param file  its folder contains its materials. @param text  its contents, in UTF-8 without a mark.
+/// Throws as read_obj_file() and ObjMaterials::find() do.
+Model read_obj(const std::filesystem::path& file, std::string_view text, const ModelOrigin& origin);
+/// The same for read_materials().
+Model read_obj_materials(const std::filesystem::path& file, std::string_view text);
 
 /// A glTF of version 1.
 class OldGltf : public std::invalid_argument {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
-#include <cstdio>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -14,59 +13,13 @@
 
 #include "scenes/mesh/image_file.h"
 #include "scenes/mesh/mesh_reader.h"
+#include "scenes/mesh/obj_text.h"
 
 namespace hedgehop::scenes::mesh {
 
 namespace {
 
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-// Removes the first word of a text and returns it.
-std::string_view take_word(std::string_view& text) {
-  text = trimmed(text);
-  const auto end = std::ranges::find_if(text, is_space);
-  const std::string_view word = text.substr(0, static_cast<size_t>(end - text.begin()));
-  text = trimmed(text.substr(word.size()));
-  return word;
-}
-
-std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
-// Calls `visit` with the keyword and the rest of each line. A backslash at the end of a line continues it.
-template <class Visit>
-void for_each_line(std::string_view text, const Visit& visit) {
-  std::string joined;
-  while (!text.empty()) {
-    const size_t end = text.find('\n');
-    std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.ends_with('\\')) {
-      joined += std::string(line.substr(0, line.size() - 1)) + ' ';
-      continue;
-    }
-    if (!joined.empty()) {
-      joined += line;
-      line = joined;
-    }
-    if (!line.starts_with('#')) {
-      const std::string_view keyword = take_word(line);
-      visit(keyword, line);
-    }
-    joined.clear();
-  }
-}
+constexpr float kDefaultColor = 0.6f;  // of a material without a color, as in other importers
 
 std::string lower(std::string_view word) {
   std::string result(word);
@@ -143,7 +96,7 @@ void set_color(std::string_view rest, Material& look) {
   std::vector<double> values;
   while (values.size() < 3) {
     const std::optional<double> value = number_of(take_word(rest));
-    if (!value) break;
+    if (!value || std::isnan(*value)) break;
     values.push_back(std::clamp(*value, 0.0, 1.0));
   }
   if (values.empty()) return;
@@ -160,10 +113,9 @@ std::string text_of(const std::filesystem::path& file) {
 
 void read_mtl(const std::filesystem::path& file, const std::filesystem::path& obj_folder, ObjMaterials& found) {
   constexpr float kHalf = 0.5f;
-  constexpr float kDefault = 0.6f;  // as the importer's
   MtlMaterial unnamed;
   MtlMaterial* material = &unnamed;
-  for_each_line(text_of(file), [&](std::string_view keyword, std::string_view rest) {
+  for_each_line(text_of(file), [&](std::string_view keyword, std::string_view rest, size_t) {
     const std::string key = lower(keyword);
     Material& look = material->look;
     const auto image = [&] {
@@ -175,7 +127,7 @@ void read_mtl(const std::filesystem::path& file, const std::filesystem::path& ob
       material = &found.by_name[std::string(rest)];
       *material = {};
       material->look.name = std::string(rest);
-      material->look.color.setConstant(kDefault);
+      material->look.color.setConstant(kDefaultColor);
     } else if (key == "kd") {
       set_color(rest, look);
     } else if (key == "map_kd") {
@@ -217,80 +169,30 @@ std::vector<std::string> libraries_of(std::string_view rest, const std::filesyst
   return any ? names : std::vector{std::string(whole)};
 }
 
-// Returns whether the first corner of a face names a position, an image coordinate and a normal: "1/1/1".
-bool has_uv_index(std::string_view corners) {
-  const std::string_view corner = take_word(corners);
-  const size_t first = corner.find('/'), second = corner.rfind('/');
-  return first != std::string_view::npos && second > first + 1;
-}
-
 }  // namespace
 
-ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view text) {
-  ObjMaterials found;
-  std::string libraries, current;
-  std::set<std::string> used;
-  bool has_uvs = false, has_normals = false, refers_to_uvs = false;
-  const std::filesystem::path folder = obj.parent_path();
-  for_each_line(text, [&](std::string_view keyword, std::string_view rest) {
-    has_uvs = has_uvs || keyword == "vt";
-    has_normals = has_normals || keyword == "vn";
-    if (keyword == "f") refers_to_uvs = refers_to_uvs || has_uv_index(rest);
-    if (keyword == "usemtl") current = std::string(rest);
-    if (keyword == "f" && !current.empty()) used.insert(current);
-    if (keyword != "mtllib") return;
-    for (const std::string& name : libraries_of(rest, folder)) {
-      const std::optional<std::filesystem::path> file = file_named(name, {folder}, false);
-      if (!file) throw std::invalid_argument("its material file '" + name + "': there is no such file");
-      if (!may_be_read(*file))
-        throw std::invalid_argument("its file '" + file->string() + "' is not a regular file of at most 256 MB");
-      read_mtl(*file, folder, found);
-      found.files.insert(file->lexically_normal());
-      libraries += (libraries.empty() ? "'" : ", '") + name + "'";
-    }
-  });
-  if (refers_to_uvs && has_normals && !has_uvs) {  // the importer would drop these faces
-    throw std::invalid_argument("its faces refer to image coordinates, but it has none (vt)");
+void read_material_files(std::string_view names, const std::filesystem::path& folder, ObjMaterials& found) {
+  for (const std::string& name : libraries_of(names, folder)) {
+    const std::optional<std::filesystem::path> file = file_named(name, {folder}, false);
+    if (!file) throw std::invalid_argument("its material file '" + name + "': there is no such file");
+    if (!may_be_read(*file))
+      throw std::invalid_argument("its file '" + file->string() + "' is not a regular file of at most 256 MB");
+    if (!found.files.insert(file->lexically_normal()).second) continue;
+    read_mtl(*file, folder, found);
+    found.names += (found.names.empty() ? "'" : ", '") + name + "'";
   }
-  for (const std::string& name : used) {
-    // Exporters write these names for faces without a material.
-    if (found.by_name.contains(name) || name == "None" || name == "(null)") continue;
-    throw std::invalid_argument("its material '" + name + "' is in no material file; " +
-                                (libraries.empty() ? "it names none (mtllib)" : "it names " + libraries));
-  }
-  return found;
 }
 
-std::string with_leading_zeros(std::string_view obj) {
-  std::string result;
-  result.reserve(obj.size());
-  bool at_start = true, is_vertex = false;
-  char before = '\n';
-  for (const char c : obj) {
-    if (at_start && !is_space(c)) is_vertex = c == 'v';
-    at_start = c == '\n' || (at_start && is_space(c));
-    if (is_vertex && c == '.' && std::isdigit(static_cast<unsigned char>(before)) == 0) result += '0';
-    result += before = c;
-  }
-  return result;
-}
-
-std::string subtracted(std::string_view obj, const Eigen::Vector3d& origin) {
-  std::string result;
-  for_each_line(obj, [&](std::string_view keyword, std::string_view rest) {
-    result += keyword;
-    for (int k = 0; keyword == "v" && k < 3; ++k) {
-      const std::optional<double> value = number_of(take_word(rest));
-      if (!value) throw std::invalid_argument("a vertex has fewer than three coordinates");
-      std::array<char, 32> digits{};
-      std::snprintf(digits.data(), digits.size(), " %.9g", *value - origin[k]);
-      result += digits.data();
-    }
-    result += ' ';
-    result += rest;
-    result += '\n';
-  });
-  return result;
+MtlMaterial ObjMaterials::find(const std::string& name) const {
+  const auto found = by_name.find(name);
+  if (found != by_name.end()) return found->second;
+  MtlMaterial plain;
+  plain.look.name = name;
+  plain.look.color.setConstant(kDefaultColor);
+  // Exporters write these names for faces without a material.
+  if (name.empty() || name == "None" || name == "(null)") return plain;
+  throw std::invalid_argument("its material '" + name + "' is in no material file; " +
+                              (names.empty() ? "it names none (mtllib)" : "it names " + names));
 }
 
 }  // namespace hedgehop::scenes::mesh

@@ -17,21 +17,21 @@ struct MtlMaterial {
   Eigen::Vector2f uv_scale = Eigen::Vector2f::Ones(), uv_offset = Eigen::Vector2f::Zero();
 };
 
-/// The materials that an OBJ file uses.
+/// The materials of an OBJ file.
 struct ObjMaterials {
   std::map<std::string, MtlMaterial, std::less<>> by_name;
   std::set<std::filesystem::path> files;
+  std::string names;                 ///< of the files, as the OBJ names them, for messages
   std::set<std::string> unrendered;  ///< features that are not rendered
+
+  /// Returns a material; a grey one for faces without a material, with an empty name, "None" or "(null)".
+  /// @throws std::invalid_argument if the files lack it.
+  MtlMaterial find(const std::string& name) const;
 };
 
-/// Returns the materials of an OBJ file. @param text  its contents.
-/// Throws std::invalid_argument if a material file is missing, or they lack a material that a face uses.
-ObjMaterials obj_materials(const std::filesystem::path& obj, std::string_view text);
-
-/// Returns the text of an OBJ file whose coordinates have a digit before the point: the importer does not count ".5".
-std::string with_leading_zeros(std::string_view obj);
-
-/// Returns the text of an OBJ file with a position subtracted from its vertices, in double precision.
-std::string subtracted(std::string_view obj, const Eigen::Vector3d& origin);
+/// Reads the material files that a statement of an OBJ names: one name with spaces, or several.
+/// @param folder  of the OBJ.
+/// @throws std::invalid_argument if one is missing or is not a regular file of at most 256 MB.
+void read_material_files(std::string_view names, const std::filesystem::path& folder, ObjMaterials& found);
 
 }  // namespace hedgehop::scenes::mesh

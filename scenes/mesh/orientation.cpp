@@ -18,27 +18,45 @@ using Face = std::array<uint32_t, 3>;
 
 /// Returns a number for each corner that is the same for corners at the same position.
 std::vector<uint32_t> places_of(const std::vector<Vector3d>& corners) {
-  std::vector<uint32_t> order(corners.size()), places(corners.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto before = [&](uint32_t a, uint32_t b) {
-    return std::lexicographical_compare(corners[a].begin(), corners[a].end(), corners[b].begin(), corners[b].end());
+  // Equal positions have equal keys. Sorting by one number takes half the time of sorting by three.
+  struct Keyed {
+    double key;
+    uint32_t corner;
+  };
+  std::vector<Keyed> order(corners.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = {corners[i].dot(Vector3d(1.0, 0.7548, 0.5698)), i};
+  const auto before = [&](const Keyed& a, const Keyed& b) {
+    if (a.key != b.key) return a.key < b.key;
+    const Vector3d &p = corners[a.corner], &q = corners[b.corner];
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   };
   std::ranges::sort(order, before);
+  std::vector<uint32_t> places(corners.size());
   for (size_t i = 1; i < order.size(); ++i) {
-    places[order[i]] = places[order[i - 1]] + (before(order[i - 1], order[i]) ? 1 : 0);
+    places[order[i].corner] = places[order[i - 1].corner] + (before(order[i - 1], order[i]) ? 1 : 0);
   }
   return places;
 }
 
-/// Returns the faces of each connected body, in order.
-std::vector<std::vector<uint32_t>> bodies_of(const std::vector<Face>& faces) {
+/// The faces of a connected body, in order.
+struct ConnectedFaces {
+  std::vector<uint32_t> faces;
+  bool is_closed = true;  ///< faces pass each edge equally often in both directions
+};
+
+std::vector<ConnectedFaces> bodies_of(const std::vector<Face>& faces) {
   struct Edge {
     std::pair<uint32_t, uint32_t> ends;
     uint32_t face;
+    int direction;
   };
   std::vector<Edge> edges;
+  edges.reserve(3 * faces.size());
   for (uint32_t f = 0; f < faces.size(); ++f) {
-    for (size_t i = 0; i < 3; ++i) edges.push_back({std::minmax(faces[f][i], faces[f][(i + 1) % 3]), f});
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t a = faces[f][i], b = faces[f][(i + 1) % 3];
+      edges.push_back({std::minmax(a, b), f, (a < b ? 1 : 0) - (b < a ? 1 : 0)});
+    }
   }
   std::ranges::sort(edges, {}, &Edge::ends);
   std::vector<uint32_t> parent(faces.size());
@@ -47,34 +65,28 @@ std::vector<std::vector<uint32_t>> bodies_of(const std::vector<Face>& faces) {
     while (parent[f] != f) f = parent[f] = parent[parent[f]];
     return f;
   };
-  for (size_t i = 1; i < edges.size(); ++i) {
-    if (edges[i].ends != edges[i - 1].ends) continue;
-    const uint32_t one = root(edges[i].face), other = root(edges[i - 1].face);
-    parent[std::max(one, other)] = std::min(one, other);
+  std::vector<uint32_t> open;
+  for (size_t i = 0; i < edges.size();) {
+    const Edge& first = edges[i];
+    int sum = 0;
+    for (; i < edges.size() && edges[i].ends == first.ends; ++i) {
+      sum += edges[i].direction;
+      const uint32_t one = root(edges[i].face), other = root(first.face);
+      parent[std::max(one, other)] = std::min(one, other);
+    }
+    if (sum != 0) open.push_back(first.face);
   }
-  std::vector<std::vector<uint32_t>> bodies;
+  std::vector<ConnectedFaces> bodies;
   std::vector<size_t> number(faces.size());
   for (uint32_t f = 0; f < faces.size(); ++f) {
     if (root(f) == f) {
       number[f] = bodies.size();
       bodies.emplace_back();
     }
-    bodies[number[root(f)]].push_back(f);
+    bodies[number[root(f)]].faces.push_back(f);
   }
+  for (const uint32_t f : open) bodies[number[root(f)]].is_closed = false;
   return bodies;
-}
-
-bool is_closed(const std::vector<Face>& faces, const std::vector<uint32_t>& body) {
-  std::vector<std::pair<uint32_t, uint32_t>> along, back;
-  for (const uint32_t f : body) {
-    for (size_t i = 0; i < 3; ++i) {
-      along.emplace_back(faces[f][i], faces[f][(i + 1) % 3]);
-      back.emplace_back(faces[f][(i + 1) % 3], faces[f][i]);
-    }
-  }
-  std::ranges::sort(along);
-  std::ranges::sort(back);
-  return along == back;
 }
 
 double six_volumes_m3(const Polyhedron& mesh, const std::vector<uint32_t>& body) {
@@ -121,11 +133,11 @@ std::vector<Facing> facing_of_faces(const Polyhedron& mesh) {
     Eigen::AlignedBox3d box;
   };
   std::vector<Body> bodies;
-  for (std::vector<uint32_t>& body : bodies_of(faces)) {
+  for (ConnectedFaces& body : bodies_of(faces)) {
     Facing facing = Facing::open;
-    if (is_closed(faces, body)) facing = six_volumes_m3(mesh, body) < 0.0 ? Facing::inward : Facing::outward;
-    const Eigen::AlignedBox3d box = box_of(mesh, body);
-    bodies.push_back({std::move(body), facing, box});
+    if (body.is_closed) facing = six_volumes_m3(mesh, body.faces) < 0.0 ? Facing::inward : Facing::outward;
+    const Eigen::AlignedBox3d box = box_of(mesh, body.faces);
+    bodies.push_back({std::move(body.faces), facing, box});
   }
   std::vector<Facing> result(mesh.faces.size());
   for (const Body& body : bodies) {

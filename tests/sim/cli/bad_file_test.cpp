@@ -142,7 +142,7 @@ TEST_F(BadFile, RejectsPipesAndOtherFormatsNamedByAMesh) {
   refused(with("piped.obj"), "pipe.mtl' is not a regular file of at most 256 MB");
   refused(with("huge.obj"), "huge.mtl' is not a regular file of at most 256 MB");
   refused(with("piped.gltf"), "buffer' is not a regular file of at most 256 MB");
-  refused(with("faces.obj"), "it has more than 2000000 faces");
+  refused(with("faces.obj"), "it has more than 2000000 triangles");
   refused(with("chain.gltf"), "it has no triangles");
   refused(with("deep.fbx"), "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
   for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
