@@ -161,36 +161,8 @@ void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& sc
   }
 }
 
-namespace {
-
-/// Removes the triangles of the ground and of roads. Boxes then hide no view below their bottoms.
-void remove_ground(Scene& scene) {
-  scene.has_ground = false;
-  for (Mesh& mesh : scene.meshes) {
-    std::vector<Chunk> kept;
-    std::vector<uint32_t> indices;
-    for (Chunk chunk : mesh.chunks) {
-      const auto first = static_cast<uint32_t>(indices.size());
-      for (uint32_t i = chunk.first_index; i < chunk.first_index + chunk.index_count; i += 3) {
-        const SemanticClass kind = mesh.instances[mesh.vertices[mesh.indices[i]].instance].kind;
-        if (kind == SemanticClass::ground || kind == SemanticClass::road) continue;
-        for (uint32_t k = i; k < i + 3; ++k) indices.push_back(mesh.indices[k]);
-      }
-      chunk.first_index = first;
-      chunk.index_count = static_cast<uint32_t>(indices.size()) - first;
-      chunk.fills_box_to_ground = false;
-      if (chunk.index_count > 0) kept.push_back(chunk);
-    }
-    mesh.chunks = std::move(kept);
-    mesh.indices = std::move(indices);
-  }
-  std::erase_if(scene.meshes, [](const Mesh& mesh) { return mesh.chunks.empty(); });
-}
-
-}  // namespace
-
 std::vector<std::string> add_files(const SceneAdditions& added, uint64_t seed, Scene& scene) {
-  if (!added.has_plane()) remove_ground(scene);
+  scene.has_ground = added.has_plane();
   std::vector<std::string> lines = mesh::add_imports(added.imports, added.origin_ENU, scene);
   if (added.terrain) terrain::add_terrain(*added.terrain, added.origin_ENU, seed, scene);
   return lines;

@@ -1,15 +1,16 @@
 #include "scenes/generators.h"
 
 #include <type_traits>
+#include <utility>
 
 #include "scenes/additions.h"
+#include "scenes/scene_files.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes {
 namespace {
 
-constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001,
-                   kTerrainStream = 1002;  // of the scene's seed; generators use 0 and up
+constexpr uint64_t kMoverStream = 1000, kBoxStream = 1001;  // of the scene's seed; generators use 0 and up
 
 Scene generate(const worlds::UrbanConfig& config, uint64_t seed) { return worlds::make_urban(config, seed); }
 Scene generate(const worlds::RoomConfig& config, uint64_t seed) { return worlds::make_room(config, seed); }
@@ -29,11 +30,15 @@ Scene generate(const worlds::AprilGridConfig& config, uint64_t seed) { return wo
 }  // namespace
 
 Scene make_scene(const SceneConfig& config, uint64_t seed) {
-  const auto make = [seed](const auto& chosen) {
+  return make_scene(config, seed, read_scene_files(config, seed));
+}
+
+Scene make_scene(const SceneConfig& config, uint64_t seed, SceneFiles files) {
+  const auto make = [&](const auto& chosen) {
     Scene scene = generate(chosen, seed);
     add_boxes(chosen.added.boxes, derived_seed(seed, kBoxStream), scene);
     add_movers(chosen.added.movers, derived_seed(seed, kMoverStream), scene);
-    add_files(chosen.added, derived_seed(seed, kTerrainStream), scene);
+    add_scene_files(std::move(files), scene);
     if constexpr (std::is_same_v<decltype(chosen), const worlds::OpenConfig&>) worlds::set_bounds(scene);
     return scene;
   };

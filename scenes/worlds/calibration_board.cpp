@@ -8,6 +8,7 @@
 
 #include "scenes/mesh/bodies.h"
 #include "scenes/mesh/mesh_builder.h"
+#include "scenes/scene_files.h"
 #include "scenes/textures/stone_textures.h"
 #include "scenes/textures/street_textures.h"
 #include "scenes/world_config.h"
@@ -18,7 +19,6 @@ namespace hedgehop::scenes::worlds {
 namespace {
 
 constexpr uint64_t kBoardGrassStream = 0;  // of the scene's seed
-constexpr int kBoardTexturePx = 64;
 constexpr double kBoardThicknessM = 0.01;
 constexpr uint32_t kMeadow = 0, kBoardBlack = 1, kBoardWhite = 2;  // textures
 
@@ -46,12 +46,12 @@ class Board {
     scene_.name = std::move(name);
     // A sun in the south lights the face.
     scene_.lights.to_sun_W = Eigen::Vector3f(-0.7f, -0.3f, -0.65f).normalized();
-    scene_.textures = TextureList(kBoardTexturePx);
+    scene_.textures = TextureList(kFixedTexturePx);
     scene_.textures.add([grass_seed = derived_seed(seed, kBoardGrassStream)] {
-      return textures::paint_grass(kBoardTexturePx, grass_seed);
+      return textures::paint_grass(kFixedTexturePx, grass_seed);
     });
-    scene_.textures.add([] { return textures::paint_blank(kBoardTexturePx, {0.03f, 0.03f, 0.03f}); });
-    scene_.textures.add([] { return textures::paint_blank(kBoardTexturePx, {0.9f, 0.9f, 0.9f}); });
+    scene_.textures.add([] { return textures::paint_blank(kFixedTexturePx, {0.03f, 0.03f, 0.03f}); });
+    scene_.textures.add([] { return textures::paint_blank(kFixedTexturePx, {0.9f, 0.9f, 0.9f}); });
     const double half_m = std::max(width_m, std::abs(north_m)) + 20.0;
     scene_.bounds_NE_m = {Eigen::Vector2d(-half_m, -half_m), Eigen::Vector2d(half_m, half_m)};
     mesh::add_ground(half_m, {kMeadow, textures::kGrassTileM}, mesh_);

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/generators.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace CLI {
@@ -262,7 +261,7 @@ inline LoadedScenario load(const ScenarioOptions& options) {
 void print_black_pixels(const RigConfig& rig);
 
 /// Prints one line for each imported mesh with features that are not rendered, or images that are reduced.
-void print_import_limits(const scenes::SceneConfig& config);
+void print_import_limits(const FlightParts& parts);
 
 /// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the
 /// working folder, otherwise from those of the installed program. Throws InputError that names the folder if there are

@@ -69,9 +69,10 @@ int render(const RenderOptions& options) {
                                  tiff ? "TIFF" : "PNG", ending));
   }
   require_writable_file(options.out);
-  Simulation simulation(load(options.scenario));
-  print_black_pixels(simulation.scenario().rig);
-  print_import_limits(simulation.scenario().scene);
+  LoadedScenario loaded = load(options.scenario);
+  print_black_pixels(loaded.scenario.rig);
+  print_import_limits(loaded.parts);
+  Simulation simulation(std::move(loaded));
   const cv::Mat image = file_image(options.what, image_at(simulation, options, channel_of(options.what)));
   const std::filesystem::path folder = options.out.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);

@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <variant>
 
-#include "scenes/generators.h"
-#include "scenes/mesh/mesh_import.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/flight_table.h"
 #include "sim/cli/commands.h"
@@ -21,6 +19,7 @@
 #include "sim/pages/runs_page.h"
 #include "sim/pages/sweep_analysis.h"
 #include "sim/scenario/calibration.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/list_topics.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sweep/sweep_file.h"
@@ -52,16 +51,8 @@ void print_black_pixels(const RigConfig& rig) {
   }
 }
 
-void print_import_limits(const scenes::SceneConfig& config) {
-  const auto print = [](const auto& world) {
-    if (world.added.imports.empty() && !world.added.terrain) return;
-    scenes::Scene scene;
-    if constexpr (requires { world.texture_size_px; }) {
-      scene.textures = scenes::TextureList(static_cast<int>(world.texture_size_px));
-    }
-    for (const std::string& line : scenes::add_files(world.added, 0, scene)) notice(line + "\n");
-  };
-  std::visit(print, config);
+void print_import_limits(const FlightParts& parts) {
+  for (const std::string& line : parts.files.remarks) notice(line + "\n");
 }
 
 std::vector<std::string> list_topics() {

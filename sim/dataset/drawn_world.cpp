@@ -15,9 +15,12 @@
 namespace hedgehop::sim {
 
 DrawnWorld::DrawnWorld(const DatasetRequest& request, const std::filesystem::path& scenario, uint64_t seed)
+    : DrawnWorld(request, load_flight(scenario, request.overrides, seed)) {}
+
+DrawnWorld::DrawnWorld(const DatasetRequest& request, LoadedScenario loaded)
     : request_(request),
-      scenario_(load_flight(scenario, request.overrides, seed).scenario),
-      environment_(scenario_),
+      scenario_(std::move(loaded.scenario)),
+      environment_(scenario_, std::move(loaded.parts.files)),
       cameras_(scenario_.rig, Ticks(scenario_.physics_rate_hz.value()), *environment_.scene, environment_.renderer,
                scenario_.seed),
       camera_(camera_index()) {}

@@ -8,6 +8,7 @@
 #include "sim/dataset/dataset.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/flight_environment.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {
@@ -36,6 +37,7 @@ class DrawnWorld {
   cv::Mat image(DatasetChannel channel, const Shot& shot);
 
  private:
+  DrawnWorld(const DatasetRequest& request, LoadedScenario loaded);
   size_t camera_index() const;
   std::vector<Shot> random_shots(size_t count);
   std::vector<Shot> shots_of_file(size_t count) const;

@@ -5,6 +5,7 @@
 
 #include "dynamics/hull.h"
 #include "scenes/scene.h"
+#include "scenes/scene_files.h"
 #include "sim/collision/proximity.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/scenario.h"
@@ -16,6 +17,8 @@ namespace hedgehop::sim {
 struct FlightEnvironment {
   /// Throws InputError for an invalid scene, std::runtime_error if no context can be created.
   explicit FlightEnvironment(const Scenario& scenario);
+  /// As above. @param files  that the validation of this scenario has read.
+  FlightEnvironment(const Scenario& scenario, scenes::SceneFiles files);
 
   std::shared_ptr<const scenes::Scene> scene;
   std::vector<dynamics::HullPart> hull;

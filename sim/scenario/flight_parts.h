@@ -13,6 +13,7 @@
 #include "dynamics/hull.h"
 #include "dynamics/vehicle.h"
 #include "scenes/scene.h"
+#include "scenes/scene_files.h"
 #include "sim/scenario/inputs.h"
 #include "sim/scenario/scenario.h"
 
@@ -42,6 +43,7 @@ struct FlightParts {
 
   AircraftParts aircraft;
   std::unique_ptr<avoidance::Module> module;  ///< null for a foreign module, which the flight loads
+  scenes::SceneFiles files;                   ///< of the scene; empty in parts from build_parts()
 };
 
 /// A scenario, its parts, and the files it depends on. After a change of the scenario, the parts must be built again.
@@ -64,7 +66,8 @@ LoadedScenario load_flight(const std::filesystem::path& file, std::span<const st
 LoadedScenario load_flight_text(const std::string& yaml, std::span<const std::string> overrides = {},
                                 std::optional<uint64_t> seed = {});
 
-/// Build the parts of a valid scenario. Throw InputError with the path of a part that cannot be built.
+/// Build the parts of a valid scenario, for another flight in the same scene. Throw InputError with the path of a part
+/// that cannot be built.
 FlightParts build_parts(const Scenario& scenario);
 AircraftParts build_aircraft(const Scenario& scenario);
 
@@ -78,7 +81,13 @@ avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynami
 /// As above, for the scenario's own vehicle.
 avoidance::Setup module_setup(const Scenario& scenario);
 
+/// Reads the files of the scene of a flight. @param run_seed  of the flight.
+/// Throws std::invalid_argument that begins with the faulty key.
+scenes::SceneFiles read_scene_files(const scenes::SceneConfig& config, uint64_t run_seed);
+
 /// Returns the scene of a flight for the run's seed. Throws std::invalid_argument on an invalid scene.
 scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);
+/// As above. @param files  from read_scene_files() for the same arguments.
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed, scenes::SceneFiles files);
 
 }  // namespace hedgehop::sim

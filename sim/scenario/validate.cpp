@@ -155,10 +155,7 @@ class Validator {
             fmt::format("{} m is outside the altitude_band, {} to {} m", start_m, band->min_m, band->max_m));
       }
     }
-    build("scene", [&] {
-      scenes::Scene alone;
-      std::visit([&](const auto& chosen) { scenes::add_files(chosen.added, 0, alone); }, scenario_.scene);
-    });
+    build("scene", [&] { files_ = read_scene_files(scenario_.scene, scenario_.seed); });
     build("vehicle", [&] { vehicle_.emplace(scenario_.vehicle); });
     build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
     // If the vehicle is invalid, the avionics are checked with a valid one, so that each error is reported once.
@@ -175,6 +172,7 @@ class Validator {
     if (vehicle_ && wind_ && avionics_ && has_module) {
       found.parts.emplace(AircraftParts{*std::move(vehicle_), *std::move(wind_), *std::move(avionics_)},
                           std::move(module_));
+      found.parts->files = std::move(files_);
     }
     return found;
   }
@@ -226,6 +224,7 @@ class Validator {
   std::optional<dynamics::air::Wind> wind_;
   std::optional<dynamics::Avionics> avionics_;
   std::unique_ptr<avoidance::Module> module_;
+  scenes::SceneFiles files_;
   bool sensor_rates_fit_ = true;
 };
 

@@ -57,7 +57,7 @@ class Simulation::Impl {
     }
     if (!scenario_.link && outside_) throw std::invalid_argument("the scenario has no link");
     keep_opencv_to_one_thread();
-    environment_.emplace(scenario_);
+    environment_.emplace(scenario_, std::move(parts.files));
     begin(std::move(parts));
   }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "sim/simulation/simulation.h"
 
@@ -47,6 +48,23 @@ TEST(Imports, ThatCannotBeReadAreRefusedWithTheirPlace) {
     EXPECT_NE(std::string(error.what()).find("imports"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("there is no such file"), std::string::npos) << error.what();
   }
+}
+
+TEST(Imports, AreReadOnceForTheValidationAndTheFlight) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_once.obj";
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n";
+  const std::vector<std::string> overrides = {
+      "scene.imports=[{file: '" + file.string() + "', name: sheet, north: 50, altitude: 20}]", "scene.texture_size=64",
+      "drawing.renderer=tiles"};
+  LoadedScenario loaded = load_flight(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides);
+  EXPECT_EQ(loaded.parts.files.remarks, std::vector{"'" + file.string() + "': not rendered: points and lines"});
+  std::filesystem::remove(file);
+  const Simulation simulation(std::move(loaded));
+  const scenes::Scene& scene = simulation.scene();
+  EXPECT_EQ(scene.solids.back().name, "sheet");
+  for (const scenes::Vertex& vertex : scene.meshes.back().vertices)
+    EXPECT_EQ(vertex.texture + 1, scene.textures.size());
+  EXPECT_EQ(scene.textures.images().back().at<cv::Vec3b>(0, 0), cv::Vec3b(153, 153, 153));  // Kd 0.6
 }
 
 }  // namespace
