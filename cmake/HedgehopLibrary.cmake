@@ -57,6 +57,19 @@ function(hedgehop_library folder)
   target_link_libraries(${target} ${scope} ${arg_PACKAGES})
 endfunction()
 
+# hedgehop_loaded_library(<name> USER <target> SRCS ... PACKAGES ...): a shared library that the code of the target loads when
+# it is needed, because the packages take long to load.
+function(hedgehop_loaded_library name)
+  cmake_parse_arguments(arg "" "USER" "SRCS;PACKAGES" ${ARGN})
+  add_library(${name} MODULE ${arg_SRCS})
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${HEDGEHOP_LOADED_LIBRARIES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_link_libraries(${name} PRIVATE ${arg_PACKAGES} hedgehop_warnings)
+  set_property(GLOBAL APPEND PROPERTY HEDGEHOP_LOADED ${name})
+  add_dependencies(${arg_USER} ${name})
+endfunction()
+
 # Installs the libraries and headers that modules and loops outside this tree are built against.
 function(hedgehop_offer)
   foreach(folder IN LISTS ARGN)

@@ -26,8 +26,6 @@ function(hedgehop_package target header)
   target_include_directories(${target} SYSTEM INTERFACE ${${upper}_INCLUDE_DIR})
   target_link_libraries(${target} INTERFACE ${libraries})
 endfunction()
-hedgehop_package(hedgehop_osmesa GL/osmesa.h)  # loaded at the first use
-hedgehop_package(hedgehop_egl EGL/egl.h LIBRARIES EGL OPTIONAL)
 hedgehop_package(hedgehop_assimp assimp/Importer.hpp LIBRARIES assimp OPTIONAL)
 # Images in files: OpenCV's imgcodecs would load 76 more libraries.
 hedgehop_package(hedgehop_png png.h LIBRARIES png)

@@ -6,12 +6,9 @@
 #include <stdexcept>
 
 #include "avoidance/policy/action_pilot.h"
+#include "avoidance/policy/network.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
-#ifdef HEDGEHOP_DNN
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/dnn.hpp>
-#endif
 
 namespace hedgehop::avoidance::policy {
 
@@ -26,40 +23,19 @@ std::string PolicyImage::input() const {
   }
 }
 
-#ifdef HEDGEHOP_DNN
 namespace {
 
 [[noreturn]] void refuse(const OnnxPolicyConfig& config, const std::string& why) {
   throw std::invalid_argument("file '" + config.file.string() + "': " + why);
 }
 
-/// Returns the message of OpenCV on one line, without the locations in its sources.
-std::string words(const cv::Exception& fault) {
-  std::string text = fault.err.substr(0, fault.err.find('\n'));
-  text = text.substr(0, text.find(" parse error"));
-  return text.starts_with("> ") ? text.substr(2) : text;
-}
-
-/// Suppresses the printing of exceptions by OpenCV.
-class Quiet {
- public:
-  Quiet() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~Quiet() { cv::utils::logging::setLogLevel(before_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  cv::utils::logging::LogLevel before_;
-};
-
-cv::dnn::Net read_network(const OnnxPolicyConfig& config) {
+std::unique_ptr<Network> network_of(const OnnxPolicyConfig& config) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(config.file, error)) refuse(config, "no such file");
-  const Quiet quiet;
   try {
-    return cv::dnn::readNetFromONNX(config.file.string());
-  } catch (const cv::Exception& e) {
-    refuse(config, "OpenCV reads no network of ONNX from it: " + words(e));
+    return read_network(config.file);
+  } catch (const std::invalid_argument& fault) {
+    refuse(config, fault.what());
   }
 }
 
@@ -68,9 +44,7 @@ class OnnxPolicy final : public Module {
   explicit OnnxPolicy(const OnnxPolicyConfig& config) : config_(config) {
     fields::require_bounds(config);
     if (config.images.empty() && !config.state) throw std::invalid_argument("needs 'images' or 'state'");
-    network_ = read_network(config);
-    network_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    network_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+    network_ = network_of(config);
   }
 
  private:
@@ -120,23 +94,22 @@ class OnnxPolicy final : public Module {
         values = frame.image.clone();
         cv::patchNaNs(values, image.mean);
       }
-      cv::dnn::blobFromImage(values, blobs_[i], image.scale, {}, cv::Scalar::all(image.mean));
+      network_->to_input(values, image.scale, image.mean, blobs_[i]);
     }
   }
 
   /// Throws std::invalid_argument if inputs or outputs differ from the config, or if an action is not finite.
   Action run(const State& state) {
     cv::Mat answer;
-    const Quiet quiet;
     try {
-      for (size_t i = 0; i < blobs_.size(); ++i) network_.setInput(blobs_[i], config_.images[i].input());
+      for (size_t i = 0; i < blobs_.size(); ++i) network_->set_input(blobs_[i], config_.images[i].input());
       if (config_.state) {
-        network_.setInput(cv::Mat(1, static_cast<int>(state.size()), CV_32F, const_cast<float*>(state.data())).clone(),
-                          "state");
+        network_->set_input(
+            cv::Mat(1, static_cast<int>(state.size()), CV_32F, const_cast<float*>(state.data())).clone(), "state");
       }
-      answer = network_.forward("action");
-    } catch (const cv::Exception& e) {
-      refuse(config_, "the network does not take these images and state: " + words(e));
+      answer = network_->output("action");
+    } catch (const std::invalid_argument& fault) {
+      refuse(config_, std::string("the network does not take these images and state: ") + fault.what());
     }
     if (answer.total() != 4 || answer.type() != CV_32F) {
       refuse(config_, "the output 'action' has " + std::to_string(answer.total()) + " numbers; must have 4");
@@ -148,7 +121,7 @@ class OnnxPolicy final : public Module {
   }
 
   OnnxPolicyConfig config_;
-  cv::dnn::Net network_;
+  std::unique_ptr<Network> network_;
   std::vector<cv::Mat> blobs_;  ///< of config_.images
   double speed_limit_mps_ = 0.0, first_step_s_ = 0.0;
   std::optional<ActionPilot> pilot_;
@@ -160,10 +133,5 @@ class OnnxPolicy final : public Module {
 std::unique_ptr<Module> make_onnx_policy(const OnnxPolicyConfig& config) {
   return std::make_unique<OnnxPolicy>(config);
 }
-#else
-std::unique_ptr<Module> make_onnx_policy(const OnnxPolicyConfig&) {
-  throw std::invalid_argument("this build reads no networks: install libopencv-dnn-dev and build again");
-}
-#endif
 
 }  // namespace hedgehop::avoidance::policy

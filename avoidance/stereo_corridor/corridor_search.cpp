@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "vision/opencv_library.h"
 
 namespace hedgehop::avoidance::stereo_corridor {
 namespace {
@@ -132,7 +133,7 @@ std::optional<cv::Point> TargetTracker::follow(const std::optional<cv::Point>& p
     const std::vector<cv::Point2f> before = {cv::Point2f(*pixel)};
     std::vector<cv::Point2f> after;
     std::vector<uint8_t> tracked;
-    cv::calcOpticalFlowPyrLK(last_, grey, before, after, tracked, cv::noArray());
+    vision::opencv_library().track(last_, grey, before, after, tracked);
     const cv::Point place(after.front());
     if (tracked.front() && cv::Rect({}, grey.size()).contains(place)) found = place;
   }

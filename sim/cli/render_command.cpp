@@ -23,18 +23,17 @@ ImageChannel channel_of(const std::string& what) {
 }
 
 /// Prints one line for each renderer: its version, or why this machine cannot use it.
-/// @param only  name of the one renderer to print; empty: all.
+/// @param only  name of the one renderer to print, which must be available; empty: all.
 void print_renderers(const std::string& only) {
   for (size_t i = 0; i < kRendererNames.size(); ++i) {
     const auto kind = static_cast<RendererKind>(i);
     if (!only.empty() && only != kRendererNames[i]) continue;
-    const bool is_default = kind == DrawingConfig().renderer;
+    const std::string_view mark = only.empty() && kind == DrawingConfig().renderer ? "  (the default)" : "";
     try {
-      fmt::print("{}: {}{}\n", kRendererNames[i], Renderer(scenes::Scene{}, Culling::none, kind).info(),
-                 only.empty() && is_default ? "  (the default)" : "");
-    } catch (const std::runtime_error& fault) {
-      if (!only.empty() || is_default) throw;
-      fmt::print("{}: not available: {}\n", kRendererNames[i], fault.what());
+      fmt::print("{}{}\n", Renderer(scenes::Scene{}, Culling::none, kind).info(), mark);
+    } catch (const InputError& fault) {
+      if (!only.empty()) throw;
+      fmt::print("{}{}\n", fault.what(), mark);
     }
   }
 }

@@ -80,7 +80,7 @@ std::vector<FlightRecord> fly(const std::vector<Paper>& papers, const ReproduceO
 
 /// Returns the renderer of a flight in short: "renderer tiles", "renderer Mesa 22.3.6".
 std::string short_renderer(const std::string& info) {
-  if (info.find("; tiles;") != std::string::npos) return "renderer tiles";
+  if (info.find("tiles") != std::string::npos) return "renderer tiles";
   const size_t mesa = info.find("Mesa ");
   return "renderer " +
          (mesa == std::string::npos ? info : info.substr(mesa, info.find_first_of(" ,)\n", mesa + 5) - mesa));

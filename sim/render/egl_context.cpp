@@ -1,8 +1,5 @@
 #include "sim/render/gl_context.h"
 
-#define EGL_NO_X11
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/render/egl_interface.h"
+#include "sim/render/renderer_library.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -18,20 +18,43 @@ bool has(const char* extensions, std::string_view name) {
   return extensions && std::string_view(extensions).find(name) != std::string_view::npos;
 }
 
-template <class Function>
-Function entry(const char* name) {
-  return reinterpret_cast<Function>(eglGetProcAddress(name));
+#define HEDGEHOP_EGL_CONSTANT(NAME, VALUE) constexpr EGLint EGL_##NAME = VALUE;
+HEDGEHOP_EGL_CONSTANTS(HEDGEHOP_EGL_CONSTANT)
+#undef HEDGEHOP_EGL_CONSTANT
+
+struct EglFunctions {
+#define HEDGEHOP_EGL_MEMBER(RESULT, NAME, PARAMETERS) RESULT(*NAME) PARAMETERS = nullptr;
+  HEDGEHOP_EGL_FUNCTIONS(HEDGEHOP_EGL_MEMBER)
+  HEDGEHOP_EGL_EXTENSION_FUNCTIONS(HEDGEHOP_EGL_MEMBER)  // null if the library has no such extension
+#undef HEDGEHOP_EGL_MEMBER
+};
+
+/// Loads EGL at the first call that finds it.
+const EglFunctions& egl() {
+  static const EglFunctions functions = [] {
+    const RendererLibrary library("libEGL.so.1", "libegl1 and a driver such as libegl-mesa0");
+    EglFunctions found;
+#define HEDGEHOP_EGL_FIND(RESULT, NAME, PARAMETERS) library.find(found.NAME, "egl" #NAME);
+    HEDGEHOP_EGL_FUNCTIONS(HEDGEHOP_EGL_FIND)
+#undef HEDGEHOP_EGL_FIND
+#define HEDGEHOP_EGL_FIND(RESULT, NAME, PARAMETERS) \
+  found.NAME = reinterpret_cast<RESULT(*) PARAMETERS>(found.GetProcAddress("egl" #NAME));
+    HEDGEHOP_EGL_EXTENSION_FUNCTIONS(HEDGEHOP_EGL_FIND)
+#undef HEDGEHOP_EGL_FIND
+    return found;
+  }();
+  return functions;
 }
 
 bool is_software(EGLDeviceEXT device) {
-  const auto query = entry<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-  return query && has(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+  return egl().QueryDeviceStringEXT &&
+         has(egl().QueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
 }
 
 /// Returns the displays to try, in this order: hardware devices, software devices, Mesa's surfaceless platform.
 std::vector<EGLDisplay> displays() {
-  const auto display_of = entry<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  const auto query = entry<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  const auto display_of = egl().GetPlatformDisplayEXT;
+  const auto query = egl().QueryDevicesEXT;
   if (!display_of) return {};
   std::vector<EGLDisplay> found;
   EGLint count = 0;
@@ -41,68 +64,69 @@ std::vector<EGLDisplay> displays() {
     std::stable_partition(devices.begin(), devices.end(), [](EGLDeviceEXT device) { return !is_software(device); });
     for (EGLDeviceEXT device : devices) found.push_back(display_of(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
   }
-  found.push_back(display_of(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-  std::erase(found, EGL_NO_DISPLAY);
+  found.push_back(display_of(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
+  std::erase(found, nullptr);
   return found;
 }
 
-/// Returns an OpenGL 3.3 core context that needs no surface, or EGL_NO_CONTEXT.
+/// Returns an OpenGL 3.3 core context that needs no surface, or nullptr.
 EGLContext context_on(EGLDisplay display) {
-  const char* const extensions = eglQueryString(display, EGL_EXTENSIONS);
+  const char* const extensions = egl().QueryString(display, EGL_EXTENSIONS);
   if (!has(extensions, "EGL_KHR_surfaceless_context") || !has(extensions, "EGL_KHR_no_config_context")) {
-    return EGL_NO_CONTEXT;
+    return nullptr;
   }
   const EGLint attributes[] = {
       EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+  return egl().CreateContext(display, nullptr, nullptr, attributes);
 }
 
-class EglContext final : public GlContext {
+class EglGlContext final : public GlContext {
  public:
-  EglContext();
-  ~EglContext() override;
+  EglGlContext();
+  ~EglGlContext() override;
 
   void make_current() override;
+  RendererKind kind() const override { return RendererKind::egl; }
 
  private:
-  EGLDisplay display_ = EGL_NO_DISPLAY;
-  EGLContext context_ = EGL_NO_CONTEXT;
+  EGLDisplay display_ = nullptr;
+  EGLContext context_ = nullptr;
 };
 
-EglContext::EglContext() {
+EglGlContext::EglGlContext() {
   const std::vector<EGLDisplay> candidates = displays();
   for (const EGLDisplay display : candidates) {
-    if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE || eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) continue;
+    if (egl().Initialize(display, nullptr, nullptr) != EGL_TRUE || egl().BindAPI(EGL_OPENGL_API) != EGL_TRUE) continue;
     context_ = context_on(display);
     display_ = display;
-    if (context_ != EGL_NO_CONTEXT) break;
+    if (context_ != nullptr) break;
   }
-  if (context_ == EGL_NO_CONTEXT) {
+  if (context_ == nullptr) {
     throw std::runtime_error(fmt::format(
-        "EGL created no OpenGL 3.3 core context on any of {} displays (last EGL error {:#06x}). Install libegl1 and a "
-        "driver such as libegl-mesa0, or use --renderer osmesa",
-        candidates.size(), eglGetError()));
+        "EGL created no OpenGL 3.3 core context on any of {} displays (last EGL error {:#06x}); install libegl1 "
+        "and a driver such as libegl-mesa0",
+        candidates.size(), egl().GetError()));
   }
   make_current();
-  gl_ = load_gl(eglGetProcAddress, "EGL");
+  gl_ = load_gl(egl().GetProcAddress, "EGL");
 }
 
-EglContext::~EglContext() {
+EglGlContext::~EglGlContext() {
   // Other contexts of this process share the display, so it is not terminated.
-  if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
+  if (egl().GetCurrentContext() == context_) egl().MakeCurrent(display_, nullptr, nullptr, nullptr);
+  egl().DestroyContext(display_, context_);
 }
 
-void EglContext::make_current() {
-  if (eglGetCurrentContext() == context_) return;
-  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
-    throw std::runtime_error(fmt::format("EGL refused the OpenGL context (error {:#06x})", eglGetError()));
+void EglGlContext::make_current() {
+  if (egl().GetCurrentContext() == context_) return;
+  if (egl().MakeCurrent(display_, nullptr, nullptr, context_) != EGL_TRUE) {
+    throw std::runtime_error(fmt::format("EGL refused the OpenGL context (error {:#06x})", egl().GetError()));
   }
 }
 
 }  // namespace
 
-std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglContext>(); }
+std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglGlContext>(); }
 
 }  // namespace hedgehop::sim

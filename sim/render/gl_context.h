@@ -16,6 +16,8 @@ class GlContext {
 
   /// Makes this context the current one of the calling thread. Cheap if it is current already.
   virtual void make_current() = 0;
+  /// Returns the renderer that this context belongs to.
+  virtual RendererKind kind() const = 0;
   const GlFunctions& gl() const { return gl_; }
 
  protected:
@@ -23,14 +25,18 @@ class GlContext {
   GlFunctions gl_;  ///< set by the constructors of the implementations
 };
 
-/// Returns a context of OSMesa or EGL. Mesa's rasterizer threads are off unless the environment sets LP_NUM_THREADS.
+/// Returns a context of OSMesa or EGL, never that of another renderer. Mesa's rasterizer threads are off unless the
+/// environment sets LP_NUM_THREADS.
 /// @param kind  osmesa or egl.
-/// Throws std::runtime_error with the cause if the context cannot be created or lacks a function, and InputError if an
-/// environment variable changes Mesa's version or extensions.
+/// Throws InputError with the reason and a remedy if the renderer is not available: its library cannot be loaded or
+/// lacks a function, it creates no context, or an environment variable changes Mesa's version or extensions.
 std::unique_ptr<GlContext> make_context(RendererKind kind);
 
+/// Returns a context of OSMesa. Throws std::runtime_error with the reason.
+std::unique_ptr<GlContext> make_osmesa_context();
+
 /// Returns an EGL context without a surface: on the first hardware device, else on Mesa's software device.
-/// Throws as make_context() does, also if this build has no EGL.
+/// Throws std::runtime_error with the reason.
 std::unique_ptr<GlContext> make_egl_context();
 
 }  // namespace hedgehop::sim

@@ -111,7 +111,8 @@ void GlRenderer::require_samples(int samples) {
 std::string GlRenderer::info() {
   context_->make_current();
   const auto word = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
-  return fmt::format("{}; {}; OpenGL {}", word(GL_VENDOR), word(GL_RENDERER), word(GL_VERSION));
+  return fmt::format("{}: {}; {}; OpenGL {}", kRendererNames[static_cast<size_t>(context_->kind())], word(GL_VENDOR),
+                     word(GL_RENDERER), word(GL_VERSION));
 }
 
 void GlRenderer::set_sunlight(const Eigen::Matrix4f& sun_from_W, float ambient) {

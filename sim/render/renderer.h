@@ -48,7 +48,7 @@ class Renderer {
  public:
   /// @param shadows  cast by static solids that are not flat, on all surfaces including moving obstacles.
   /// Throws std::invalid_argument for an inconsistent scene (index out of range, textures of different sizes),
-  /// std::runtime_error with the cause if there is no OpenGL context or a shader does not compile.
+  /// InputError with the reason if this machine lacks the renderer (no other replaces it).
   explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
                     RendererKind kind = RendererKind::osmesa, Shadows shadows = Shadows::none);
   Renderer(Renderer&&) noexcept;
@@ -70,7 +70,7 @@ class Renderer {
   };
   const Drawn& drawn() const;
 
-  /// Returns the renderer in one line: "Hedgehop; tiles; AVX2", or vendor, renderer and version of OpenGL.
+  /// Returns the renderer in use: "tiles: Hedgehop; AVX2", or its name and vendor, driver and version of OpenGL.
   std::string info() const;
 
  private:

@@ -5,13 +5,13 @@
 #include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
 #include "vision/flow/corner_tracker.h"
+#include "vision/opencv_library.h"
 
 namespace hedgehop::vision::flow {
 
@@ -79,8 +79,8 @@ std::vector<std::vector<RayPair>> feature_flow(const cv::Mat& older, const cv::M
 
   const cv::Size window(config.window_px, config.window_px);
   std::vector<cv::Mat> from, to;
-  cv::buildOpticalFlowPyramid(older, from, window, config.levels - 1);
-  cv::buildOpticalFlowPyramid(newer, to, window, config.levels - 1);
+  opencv_library().pyramid(older, window, config.levels - 1, from);
+  opencv_library().pyramid(newer, window, config.levels - 1, to);
   const auto found = track(from, to, all, config);
   for (size_t i = 0; i < all.size(); ++i) {
     if (!found[i]) continue;

@@ -9,6 +9,7 @@
 
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
+#include "vision/opencv_library.h"
 #include "vision/stereo/block_matcher.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/semi_global_matcher.h"
@@ -51,19 +52,10 @@ void copy_known(const cv::Mat& wide16, int margin_px, cv::Mat& disparity16) {
 }  // namespace
 
 cv::Ptr<cv::StereoMatcher> opencv_semi_global(const StereoMatcherConfig& config) {
-  // OpenCV's recommended penalties for disparity changes of one and of more than one.
-  const int area = config.block_px * config.block_px;
-  return cv::StereoSGBM::create(0, config.disparities_px, config.block_px, 8 * area, 32 * area, config.left_right_px,
-                                /*preFilterCap=*/31, config.uniqueness_percent, 0, 0, cv::StereoSGBM::MODE_SGBM);
+  return opencv_library().semi_global(config);
 }
 
-cv::Ptr<cv::StereoMatcher> opencv_block(const StereoMatcherConfig& config) {
-  const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(config.disparities_px, config.block_px);
-  matcher->setUniquenessRatio(config.uniqueness_percent);
-  matcher->setTextureThreshold(config.texture);
-  matcher->setDisp12MaxDiff(config.left_right_px);
-  return matcher;
-}
+cv::Ptr<cv::StereoMatcher> opencv_block(const StereoMatcherConfig& config) { return opencv_library().block(config); }
 
 struct StereoMatcher::Engine {
   StereoMatcherConfig config;

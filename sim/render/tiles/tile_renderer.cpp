@@ -143,6 +143,6 @@ void TileRenderer::require_samples(int samples) {
       fmt::format("{} samples per pixel are not possible; valid for renderer tiles: 1, 4", samples));
 }
 
-std::string TileRenderer::info() { return fmt::format("Hedgehop; tiles; {}", kernels_.lanes); }
+std::string TileRenderer::info() { return fmt::format("tiles: Hedgehop; {}", kernels_.lanes); }
 
 }  // namespace hedgehop::sim::tiles

@@ -121,7 +121,7 @@ class BatchOptions(Program):
         self.assertIn("Flights with 2 renderers, whose images differ: ", end.stdout)
         self.assertIn("Flights with 2 renderers", (self.folder / "out/report.html").read_text())
         rows = self.rows("out/batch.csv")
-        self.assertEqual(rows[0]["renderer"], "Hedgehop; tiles")
+        self.assertEqual(rows[0]["renderer"], "tiles: Hedgehop")
         self.assertNotIn("tiles", rows[1]["renderer"])
         self.assertRegex(rows[0]["libraries"], "^OpenCV .*, SLEEF ")
 

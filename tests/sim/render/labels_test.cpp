@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/generators.h"
+#include "tests/sim/render/osmesa.h"
 #include "tests/sim/render/small_world.h"
 #include "tests/sim/render/tested_renderer.h"
 
@@ -78,6 +79,7 @@ cv::Mat away_from_edges(const cv::Mat& labels) {
 }
 
 TEST(TilesAndMesaLabels, AreEqualOutsideOfEdges) {
+  HEDGEHOP_REQUIRE_OSMESA();
   for (const scenes::Scene& world : labeled_worlds()) {
     Renderer mesa(world, Culling::frustum_and_horizon, RendererKind::osmesa);
     Renderer tiles(world, Culling::frustum_and_horizon, RendererKind::tiles);

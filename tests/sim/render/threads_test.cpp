@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/sim/render/osmesa.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -31,6 +33,7 @@ std::string error_with(const std::string& environment, const std::string& render
 }
 
 TEST(Threads, NumberOfRasterizerThreadsChangesNoPixel) {
+  HEDGEHOP_REQUIRE_OSMESA();
   const std::string alone = digest_with("LP_NUM_THREADS=0");
   EXPECT_EQ(std::ranges::count(alone, '\n'), 20) << alone;  // ten scenes with and without shadows
   EXPECT_EQ(digest_with("LP_NUM_THREADS=0"), alone);
@@ -40,6 +43,8 @@ TEST(Threads, NumberOfRasterizerThreadsChangesNoPixel) {
 }
 
 TEST(Renderers, EglAndOsmesaDrawEqualPixelsWithTheSameRasterizer) {
+  HEDGEHOP_REQUIRE_OSMESA();
+  HEDGEHOP_REQUIRE_EGL();
   const std::string software = "LIBGL_ALWAYS_SOFTWARE=1";
   EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
 }
@@ -70,6 +75,7 @@ TEST(Renderers, InstructionsOfLibmAndOpenCvChangeNoPixelOfTiles) {
 }
 
 TEST(Renderers, EglWithoutADriverNamesARemedy) {
+  HEDGEHOP_REQUIRE_EGL();
   EXPECT_THAT(
       error_with("__EGL_VENDOR_LIBRARY_DIRS=/missing", "egl"),
       testing::AllOf(testing::HasSubstr("EGL created no OpenGL 3.3 core context"), testing::HasSubstr("libegl-mesa0")));

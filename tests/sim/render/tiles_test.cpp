@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "scenes/mesh/polyhedron.h"
 #include "sim/render/tiles/facets.h"
 #include "sim/render/tiles/sun_depths.h"
+#include "tests/sim/render/osmesa.h"
 #include "tests/sim/render/small_world.h"
 
 // Properties of the renderer tiles only: pixels close to those of Mesa, no holes, few facets.
@@ -26,8 +28,13 @@ Difference difference(const cv::Mat& a, const cv::Mat& b, double level) {
 
 class TilesAndMesa : public testing::Test {
  protected:
+  void SetUp() override {
+    HEDGEHOP_REQUIRE_OSMESA();
+    mesa_.emplace(city_.scene, Culling::frustum_and_horizon, RendererKind::osmesa);
+  }
+
   const SmallWorld city_ = small_city(6, 91);
-  Renderer mesa_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::osmesa);
+  std::optional<Renderer> mesa_;
   Renderer tiles_ = Renderer(city_.scene, Culling::frustum_and_horizon, RendererKind::tiles);
 
   /// Returns the mean over random views.
@@ -40,7 +47,7 @@ class TilesAndMesa : public testing::Test {
       CameraView view{vision::camera::PinholeCamera::from_fov(320, 240, 1.3), random_pose(random, 80.0, 40.0, 0.5)};
       view.channel = channel;
       view.samples = samples;
-      mesa_.draw(view, expected);
+      mesa_->draw(view, expected);
       tiles_.draw(view, drawn);
       const Difference here = difference(expected, drawn, level);
       sum.mean += here.mean / kViews;
@@ -77,14 +84,14 @@ TEST_F(TilesAndMesa, DepthsAndLabelsDifferAtEdgesOnly) {
   for (int i = 0; i < 20; ++i) {
     CameraView view{vision::camera::PinholeCamera::from_fov(320, 240, 1.3), random_pose(random, 80.0, 40.0, 0.5)};
     view.channel = ImageChannel::depth;
-    mesa_.draw(view, expected);
+    mesa_->draw(view, expected);
     tiles_.draw(view, drawn);
     for (size_t k = 0; k < expected.total(); ++k, ++pixels) {
       const float a = reinterpret_cast<float*>(expected.data)[k], b = reinterpret_cast<float*>(drawn.data)[k];
       depths += a == b || std::abs(a - b) <= 1e-3f * a ? 0 : 1;
     }
     view.channel = ImageChannel::labels;
-    mesa_.draw(view, expected);
+    mesa_->draw(view, expected);
     tiles_.draw(view, drawn);
     labels += static_cast<size_t>(cv::countNonZero(expected != drawn));
   }

@@ -87,7 +87,7 @@ class JUnit(unittest.TestCase):
         suite = ElementTree.fromstring(self.text)[0]
         properties = {p.get("name"): p.get("value") for p in suite.iter("property")}
         self.assertEqual(properties["scenario"], "flüge/a.yaml")
-        self.assertEqual(properties["renderer"], "Hedgehop; tiles")
+        self.assertEqual(properties["renderer"], "tiles: Hedgehop")
         self.assertLessEqual({"group", "seed", "build", "version", "libraries", "command"}, properties.keys())
 
     def test_attachments_are_relative_to_the_file(self):
