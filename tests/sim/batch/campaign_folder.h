@@ -47,7 +47,8 @@ class CampaignFolder : public TemporaryFolder {
                            "name: tiny\nduration: 0.1\nscene: {texture_size: 64}\nvelocimeter: {enabled: false}\n"
                            "rig: {cameras: [{role: front, width: 16, height: 16, fov: 90, rate: 25, channel: grey}]}\n"
                            "avoidance: {module: go_to_goal}\ngoal: {north: 5, east: 0, altitude: 1, radius: 1}\n"
-                           "checks: [{check: no_collision}]\n");
+                           "checks: [{check: no_collision}]\n"
+                           "drawing: {renderer: tiles}\n");
   }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {

@@ -4,6 +4,7 @@ usage: options_test.py PROGRAM SOURCE
 """
 
 import csv
+import ctypes
 import json
 import os
 import pathlib
@@ -99,7 +100,16 @@ class Validate(Program):
         self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
 
 
+def has_osmesa():
+    try:
+        ctypes.CDLL("libOSMesa.so.8")
+        return True
+    except OSError:
+        return False
+
+
 class BatchOptions(Program):
+    @unittest.skipUnless(has_osmesa(), "OSMesa is not installed (Debian: apt install libosmesa6)")
     def test_renderer_applies_to_every_flight_and_its_re_run(self):
         self.hedgehop("batch scenarios/a.yaml --renderer osmesa --out out")
         flight, = self.flights()
@@ -114,6 +124,7 @@ class BatchOptions(Program):
         for keep in ("report", "failed=", "failed=video", "all=film"):
             self.assertIn("failed=report,film,replay,csv", self.hedgehop(f"batch scenarios/a.yaml --keep {keep}", status=2).stderr)
 
+    @unittest.skipUnless(has_osmesa(), "OSMesa is not installed (Debian: apt install libosmesa6)")
     def test_results_of_two_renderers_are_marked(self):
         self.write("both.yaml", "tuned_on: none\nflights:\n  - {scenario: scenarios/a.yaml, seeds: 1}\n"
                    "  - {scenario: scenarios/a.yaml, seeds: 1, set: [drawing.renderer=osmesa]}\n")
@@ -193,4 +204,4 @@ class MissedGoals(Program):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -33,11 +33,12 @@ std::string on_terminal(const std::string& command, unsigned short columns) {
 
 TEST(Progress, LineOfAFlightFitsANarrowTerminalAndShowsTheRemainingTime) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "progress";
-  const std::string command = HEDGEHOP_PROGRAM
-                              " run " HEDGEHOP_SOURCE_DIR
-                              "/configs/andert2007_tree_160.yaml --set name=a_name_that_is_longer_than_the_line "
-                              "--set duration=3 --set 'checks=[]' --no-report --no-video --json --out " +
-                              folder.string() + " >/dev/null";
+  const std::string command =
+      HEDGEHOP_PROGRAM
+      " run " HEDGEHOP_SOURCE_DIR
+      "/configs/andert2007_tree_160.yaml --renderer tiles --set name=a_name_that_is_longer_than_the_line "
+      "--set duration=3 --set 'checks=[]' --no-report --no-video --json --out " +
+      folder.string() + " >/dev/null";
   EXPECT_THAT(on_terminal(command, 200), testing::ContainsRegex(": [0-9]+ of [0-9]+ s, at most [0-9]+ s left"));
   const std::string narrow = on_terminal(command, 50);
   const std::regex redrawn("\r\033\\[K([^\r\n]*)");

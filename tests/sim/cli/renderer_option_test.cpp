@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/render/osmesa.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -45,12 +46,14 @@ class RendererOption : public testing::Test {
 };
 
 TEST_F(RendererOption, CommandLineOverridesTheScenarioWhoseDefaultIsOsmesa) {
+  HEDGEHOP_REQUIRE_OSMESA();
   EXPECT_THAT(resolved(""), HasSubstr("renderer: osmesa"));
   EXPECT_THAT(resolved("--set drawing.renderer=tiles"), HasSubstr("renderer: tiles"));
   EXPECT_THAT(resolved("--set drawing.renderer=osmesa --renderer tiles"), HasSubstr("renderer: tiles"));
 }
 
 TEST_F(RendererOption, EnvironmentVariableHasNoEffectAndOneLineNamesTheOption) {
+  HEDGEHOP_REQUIRE_OSMESA();
   setenv("HEDGEHOP_GL", "tiles", 1);
   EXPECT_THAT(resolved(""), HasSubstr("renderer: osmesa"));
   EXPECT_THAT(printed_by_run(""), StartsWith("HEDGEHOP_GL has no effect any more: use --renderer, or "

@@ -16,7 +16,7 @@ constexpr int kInternalError = 3;
 
 std::string short_run(const std::string& folder) {
   return "run " HEDGEHOP_SOURCE_DIR
-         "/configs/andert2007_tree_160.yaml --set duration=0.1 --set 'checks=[]' --no-report "
+         "/configs/andert2007_tree_160.yaml --renderer tiles --set duration=0.1 --set 'checks=[]' --no-report "
          "--no-video --out " +
          folder;
 }

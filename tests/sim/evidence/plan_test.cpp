@@ -89,8 +89,8 @@ TEST(Plan, CoversEveryResolvedValueAndFileOfTheScenario) {
   folder.write("gusts.yaml", "turbulence_w20: 0\n");
   EXPECT_THAT(deviations(), ElementsAre(changed));
   folder.write("gusts.yaml", "turbulence_w20: 16\n");
-  EXPECT_THAT(deviations(" --renderer tiles"), ElementsAre(changed, "drawing.renderer=tiles was set"));
-  folder.write("tiny.yaml", folder.read("tiny.yaml") + "drawing: {renderer: tiles}\n");
+  EXPECT_THAT(deviations(" --set drawing.visibility=50"), ElementsAre(changed, "drawing.visibility=50 was set"));
+  folder.write("tiny.yaml", folder.read("tiny.yaml") + "command_latency: 0.1\n");
   EXPECT_THAT(deviations(), ElementsAre(changed));
 }
 

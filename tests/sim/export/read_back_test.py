@@ -35,6 +35,7 @@ rig:
 start: {{north: 0, east: 0, altitude: 6, heading: 30}}
 goal: {{north: 30, east: 25, altitude: 8, radius: 2}}
 avoidance: {{module: go_to_goal, speed: 3}}
+drawing: {{renderer: tiles}}
 """
 
 

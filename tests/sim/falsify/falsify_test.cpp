@@ -22,7 +22,7 @@ class Falsify : public ::testing::Test {
         "vehicle: {use: " HEDGEHOP_SOURCE_DIR
         "/configs/vehicles/s900.yaml}\nvelocimeter: {enabled: false}\n"
         "start: {north: 0, east: 0, altitude: 5}\ngoal: {north: 20, east: 0, altitude: 5, radius: 1}\n"
-        "avoidance: {module: go_to_goal, speed: 3}\nfilm: {enabled: false}\n"
+        "avoidance: {module: go_to_goal, speed: 3}\nfilm: {enabled: false}\ndrawing: {renderer: tiles}\n"
         "checks: [{check: formula, name: keeps_clear, formula: 'always (obstacle_clearance >= 0.5)'}]\n");
     folder.write("search.yaml", search(""));
   }

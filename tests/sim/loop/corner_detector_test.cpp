@@ -64,8 +64,8 @@ TEST(CornerDetector, ReportsNoCornersOutsideTheImage) {
 }
 
 Scenario from_corners(const std::string& name, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "avoidance.source=corners",
-                                        "rig.cameras.0.channel=corners"};
+  std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "drawing.renderer=tiles",
+                                        "avoidance.source=corners", "rig.cameras.0.channel=corners"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return load_scenario(HEDGEHOP_SOURCE_DIR "/configs/" + name, overrides);
 }
@@ -102,7 +102,7 @@ TEST(ProjectedCorners, OfASceneWithoutKnownCornersAreRefused) {
 }
 
 TEST(TruthUsed, IsEmptyForAFlightWithImages) {
-  const std::vector<std::string> overrides = {"duration=0.1", "film.enabled=false"};
+  const std::vector<std::string> overrides = {"duration=0.1", "film.enabled=false", "drawing.renderer=tiles"};
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/shah2009_cube_lateral.yaml", overrides);
   EXPECT_TRUE(Simulation(scenario).run().result.truth_used.empty());
 }

@@ -25,7 +25,7 @@ cv::Mat exposed(const Blur& blur, const Eigen::Vector3d& w_WB_B, int most_moment
   RigConfig rig;
   rig.cameras = {{.role = "front", .width_px = 200, .height_px = 200, .samples = samples}};
   rig.cameras[0].imperfections = ImperfectionsConfig{.shutter_s = 0.004, .shutter_samples = most_moments};
-  Renderer renderer(blur.scene);
+  Renderer renderer(blur.scene, Culling::frustum, RendererKind::tiles);
   Cameras cameras(rig, Ticks(500), blur.scene, renderer, 1);
   BodyMotion body{.v_WB_W = blur.v_WB_W, .w_WB_B = w_WB_B, .clearance_m = clearance_m};
   body.X_WB.translation() = blur.p_WB;

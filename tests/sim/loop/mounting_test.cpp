@@ -68,7 +68,7 @@ TEST(Mounting, ImagesAreRenderedFromTheTruePoseAndModulesReceiveTheCalibration) 
   rig.cameras[1].row_error_px = 3.0;
   const scenes::Scene scene = scenes::make_scene(scenes::worlds::TreeConfig{}, 1);
   constexpr uint64_t kSeed = 5;
-  Renderer renderer(scene);
+  Renderer renderer(scene, Culling::frustum, RendererKind::tiles);
   Cameras cameras(rig, Ticks(500), scene, renderer, kSeed);
   const size_t right = cameras.index("right");
   EXPECT_EQ(cameras.mounted(right).X_BC.matrix(), rig.cameras[1].X_BC().matrix());

@@ -8,6 +8,7 @@
 #include "scenes/generators.h"
 #include "scenes/mesh/mesh_builder.h"
 #include "sim/render/renderer.h"
+#include "tests/sim/render/osmesa.h"
 #include "tests/sim/render/tested_renderer.h"
 #include "vision/flow/flow_measures.h"
 #include "vision/flow/image_interpolation_flow.h"
@@ -44,6 +45,7 @@ CameraView looking_north(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& tur
 }
 
 TEST(RenderedFlow, ErrorOnAPlaneMovingUpToTwoPixelsIsBelowATwentiethPixel) {
+  HEDGEHOP_REQUIRE_OSMESA();
   constexpr double kFocalPx = 200.0;
   double sum_squares = 0.0;
   int valid = 0, all = 0;
@@ -96,12 +98,14 @@ double largest_loom_of_rotation_per_s(const vision::flow::ImageInterpolationConf
 }
 
 TEST(RenderedFlow, LoomOfPureRotationIsBelowAHundredthPerSecond) {
+  HEDGEHOP_REQUIRE_OSMESA();
   const double largest_per_s = largest_loom_of_rotation_per_s({});
   RecordProperty("largest_loom_per_s", std::to_string(largest_per_s));
   EXPECT_LT(largest_per_s, 0.01);
 }
 
 TEST(RenderedFlow, LoomOfPureRotationStaysSmallAtHalfResolution) {
+  HEDGEHOP_REQUIRE_OSMESA();
   // Halving the images first is faster and costs accuracy: docs/results.md has the figure.
   const double largest_per_s = largest_loom_of_rotation_per_s({.reduction = 2, .levels = 2});
   RecordProperty("largest_loom_per_s", std::to_string(largest_per_s));
@@ -109,6 +113,7 @@ TEST(RenderedFlow, LoomOfPureRotationStaysSmallAtHalfResolution) {
 }
 
 TEST(RenderedFlow, LoomOfAnApproachIsSpeedOverRange) {
+  HEDGEHOP_REQUIRE_OSMESA();
   Renderer renderer = make_renderer(textured_plane(2));
   vision::flow::ImageInterpolationFlow flow({}, 400, 400);
   cv::Mat older, newer;

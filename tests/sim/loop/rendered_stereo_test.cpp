@@ -15,6 +15,7 @@
 #include "sim/render/renderer.h"
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
+#include "tests/sim/render/osmesa.h"
 #include "tests/sim/render/tested_renderer.h"
 #include "tests/vision/real_data.h"
 #include "vision/stereo/disparity.h"
@@ -216,6 +217,7 @@ void expect_no_harder(const Shares& shares, const Range& real) {
 // As the headlines fly: with the noise of a sensor file, and a pair that misses its calibration. Semi-global matching
 // leaves less of facades unmatched than of any real pair, and errs less in daylight; all else is as hard.
 TEST(RenderedStereo, IsAsHardToMatchAsRealPairsWithinAThirdButForFacades) {
+  HEDGEHOP_REQUIRE_OSMESA();
   HEDGEHOP_NEEDS_REAL_DATA(vision::kRealData / "stereo");
   const Pairs real_pairs = real_worlds(), clean = rendered_worlds({});
   const Pairs day_pairs = rendered_worlds(flown_rig("day")), dull_pairs = rendered_worlds(flown_rig("dull"));

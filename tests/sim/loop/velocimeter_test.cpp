@@ -15,7 +15,8 @@ TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
   // Half a degree of tilt unknown at the start is 0.09 m/s after a second; the optic flow must bound it.
   constexpr double kMaxErrorMps = 0.1;
   for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
-    const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]", seed};
+    const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]",
+                                                "drawing.renderer=tiles", seed};
     const Flight flight =
         Simulation(load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/zingg2010_corridor_2m5.yaml", overrides))
             .run();

@@ -119,6 +119,7 @@ duration: 0.3
 scene: {{texture_size: 64}}
 velocimeter: {{enabled: false}}
 rig: {{cameras: []}}
+drawing: {{renderer: tiles}}
 film: {{enabled: {film}}}
 avoidance: {{python: hostile.py, class: Hostile, limit: 1, parameters: {{how: {how}, place: {place}}}}}
 goal: {{north: 5, east: 0, altitude: 1, radius: 1}}

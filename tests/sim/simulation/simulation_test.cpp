@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "tests/sim/render/osmesa.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -167,6 +168,7 @@ TEST(SimulationImage, AnUnknownCameraIsRefusedWithTheRigsRoles) {
 }
 
 TEST(SimulationImage, ACameraThatTheContextCannotDrawIsRefusedByItsRole) {
+  HEDGEHOP_REQUIRE_OSMESA();
   try {
     Simulation(short_city({"rig.cameras.1.samples=8", "drawing.renderer=osmesa"})).image("front", ImageChannel::grey);
     FAIL() << "accepted";

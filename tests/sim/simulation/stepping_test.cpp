@@ -56,9 +56,9 @@ TEST(Stepping, DecisionByDecisionAndTickByTickGiveTheWholeFlight) {
 }
 
 TEST(Stepping, ImagesOf30HzAreAtTheExactTimesRoundedToNanoseconds) {
-  Simulation simulation(load_scenario(
-      config("shah2009_avoid.yaml"),
-      std::vector<std::string>{"rig.cameras.0.rate=30", "duration=2", "checks=[]", "film.enabled=false"}));
+  Simulation simulation(load_scenario(config("shah2009_avoid.yaml"),
+                                      std::vector<std::string>{"rig.cameras.0.rate=30", "duration=2", "checks=[]",
+                                                               "film.enabled=false", "drawing.renderer=tiles"}));
   for (int64_t image = 0; !simulation.over(); ++image, simulation.step()) {
     EXPECT_EQ(simulation.seen().t_ns, std::llround(static_cast<double>(image) * 1e9 / 30.0));
   }

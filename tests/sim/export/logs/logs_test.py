@@ -40,6 +40,7 @@ start: {{north: 0, east: 0, altitude: 4, heading: 30}}
 goal: {{north: 30, east: 25, altitude: 5, radius: 2}}
 failures: [{{what: gps, at: 1, until: 1.5, mode: "off"}}]
 avoidance: {{module: go_to_goal, speed: 3}}
+drawing: {{renderer: tiles}}
 """
 
 
