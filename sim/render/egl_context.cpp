@@ -86,10 +86,14 @@ class EglGlContext final : public GlContext {
   EglGlContext();
   ~EglGlContext() override;
 
-  void make_current() override;
   RendererKind kind() const override { return RendererKind::egl; }
 
  private:
+  void bind() override;
+  Unbind* unbind() const override {
+    return [] { egl().MakeCurrent(egl().GetCurrentDisplay(), nullptr, nullptr, nullptr); };
+  }
+
   EGLDisplay display_ = nullptr;
   EGLContext context_ = nullptr;
 };
@@ -118,7 +122,7 @@ EglGlContext::~EglGlContext() {
   egl().DestroyContext(display_, context_);
 }
 
-void EglGlContext::make_current() {
+void EglGlContext::bind() {
   if (egl().GetCurrentContext() == context_) return;
   if (egl().MakeCurrent(display_, nullptr, nullptr, context_) != EGL_TRUE) {
     throw std::runtime_error(fmt::format("EGL refused the OpenGL context (error {:#06x})", egl().GetError()));

@@ -39,6 +39,7 @@ using EglProc = void (*)();
   X(EGLContext, CreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint*)) \
   X(EGLBoolean, DestroyContext, (EGLDisplay, EGLContext))                          \
   X(EGLContext, GetCurrentContext, ())                                             \
+  X(EGLDisplay, GetCurrentDisplay, ())                                             \
   X(EGLint, GetError, ())                                                          \
   X(EglProc, GetProcAddress, (const char*))                                        \
   X(EGLBoolean, Initialize, (EGLDisplay, EGLint*, EGLint*))                        \

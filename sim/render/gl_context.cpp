@@ -28,6 +28,14 @@ void check_gl(const GlFunctions& gl, const char* activity) {
   }
 }
 
+void GlContext::make_current() {
+  // OSMesa and EGL share the current context of Mesa, and each reports the last one that it has set itself.
+  thread_local Unbind* unbind_last = nullptr;
+  if (unbind_last != nullptr && unbind_last != unbind()) unbind_last();
+  unbind_last = unbind();
+  bind();
+}
+
 namespace {
 
 /// Throws std::runtime_error if the environment changes the version or the extensions of Mesa. Images would differ, or

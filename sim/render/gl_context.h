@@ -15,14 +15,21 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
 
   /// Makes this context the current one of the calling thread. Cheap if it is current already.
-  virtual void make_current() = 0;
+  void make_current();
   /// Returns the renderer that this context belongs to.
   virtual RendererKind kind() const = 0;
   const GlFunctions& gl() const { return gl_; }
 
  protected:
   GlContext() = default;
+  using Unbind = void();
   GlFunctions gl_;  ///< set by the constructors of the implementations
+
+ private:
+  /// Makes the context current in its library, unless the library reports that it is.
+  virtual void bind() = 0;
+  /// Returns a function after which the library has no current context in the calling thread.
+  virtual Unbind* unbind() const = 0;
 };
 
 /// Returns a context of OSMesa or EGL, never that of another renderer. Mesa's rasterizer threads are off unless the

@@ -46,10 +46,14 @@ class OsmesaGlContext final : public GlContext {
  public:
   OsmesaGlContext();
 
-  void make_current() override;
   RendererKind kind() const override { return RendererKind::osmesa; }
 
  private:
+  void bind() override;
+  Unbind* unbind() const override {
+    return [] { osmesa().MakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); };
+  }
+
   struct Destroy {
     void operator()(OSMesaContext context) const { osmesa().DestroyContext(context); }
   };
@@ -84,7 +88,7 @@ OsmesaGlContext::OsmesaGlContext() {
   gl_ = load_gl(osmesa().GetProcAddress, "OSMesa");
 }
 
-void OsmesaGlContext::make_current() {
+void OsmesaGlContext::bind() {
   if (osmesa().GetCurrentContext() == context_.get()) return;
   if (osmesa().MakeCurrent(context_.get(), window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE) {
     throw std::runtime_error("OSMesaMakeCurrent refused the OpenGL context");

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
+#include <random>
 #include <string>
 
 #include "tests/sim/render/osmesa.h"
+#include "tests/sim/render/small_world.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -47,6 +50,25 @@ TEST(Renderers, EglAndOsmesaDrawEqualPixelsWithTheSameRasterizer) {
   HEDGEHOP_REQUIRE_EGL();
   const std::string software = "LIBGL_ALWAYS_SOFTWARE=1";
   EXPECT_EQ(digest_with(software, "egl"), digest_with(software, "osmesa"));
+}
+
+TEST(Renderers, OsmesaAndEglInOneProcessDrawTheirOwnScenes) {
+  HEDGEHOP_REQUIRE_OSMESA();
+  HEDGEHOP_REQUIRE_EGL();
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", /*overwrite=*/1);
+  const SmallWorld worlds[] = {small_city(5, 81), small_city(5, 82)};
+  std::mt19937_64 random(83);
+  const CameraView view{vision::camera::PinholeCamera::from_fov(200, 150, 1.2), random_pose(random, 80.0, 40.0, 0.8),
+                        ImageChannel::color};
+  const auto make = [&](size_t world, RendererKind kind) { return Renderer(worlds[world].scene, Culling::none, kind); };
+  cv::Mat alone[2], drawn;
+  for (size_t i = 0; i < 2; ++i) make(i, RendererKind::osmesa).draw(view, alone[i]);
+  ASSERT_GT(cv::norm(alone[0], alone[1]), 0.0);
+  Renderer renderers[] = {make(0, RendererKind::osmesa), make(1, RendererKind::egl)};
+  for (size_t image = 0; image < 6; ++image) {
+    renderers[image % 2].draw(view, drawn);
+    EXPECT_EQ(cv::norm(drawn, alone[image % 2]), 0.0) << image;
+  }
 }
 
 TEST(Renderers, TilesDrawsEqualPixelsWithAllKernels) {
