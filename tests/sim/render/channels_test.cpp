@@ -4,6 +4,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/sim/render/osmesa.h"
 #include "tests/sim/render/small_world.h"
 #include "tests/sim/render/tested_renderer.h"
 
@@ -110,9 +111,14 @@ TEST(Renderer, WritesIntoTheGivenImage) {
   EXPECT_EQ(image.data, data);
 }
 
-TEST(Renderer, InfoNamesOpenGl) { EXPECT_THAT(Renderer(SmallWorld().scene).info(), testing::HasSubstr("OpenGL")); }
+TEST(Renderer, InfoNamesItselfAndOpenGl) {
+  HEDGEHOP_REQUIRE_OSMESA();
+  EXPECT_THAT(Renderer(SmallWorld().scene).info(),
+              testing::AllOf(testing::StartsWith("osmesa: "), testing::HasSubstr("OpenGL")));
+}
 
 TEST(Renderer, RejectsInvalidScenesAndViews) {
+  HEDGEHOP_REQUIRE_OSMESA();
   SmallWorld bad_index;
   bad_index.add_box({Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(1, 1, 1)});
   bad_index.scene.meshes.front().indices.back() = 1000;
