@@ -3,13 +3,14 @@ instruction sets that the C library, OpenCV and Mesa select.
 
 With the tiles renderer, they are equal on Debian 12 and 13, although the compiler and all libraries have other versions.
 
-    processors_test.py PROGRAM tiles|osmesa|symbols    the test
+    processors_test.py PROGRAM tiles|osmesa|symbols    the test; exit status 77: skipped, because OSMesa is not installed
     processors_test.py PROGRAM --renew                 flies and rewrites flights.csv
 
 With osmesa, flights depend on Mesa. With other versions than in flights.csv, they are compared only with each other.
 """
 
 import csv
+import ctypes
 import json
 import os
 import pathlib
@@ -48,6 +49,14 @@ EXACT = {"ceil", "copysign", "fabs", "floor", "fma", "fmax", "fmin", "fmod", "fr
 STATISTICS = {"erfc", "lgamma"}
 if "avx512f" not in pathlib.Path("/proc/cpuinfo").read_text():
     del PROCESSORS["tiles"]["no AVX-512"]  # this processor has none
+
+
+def has_osmesa():
+    try:
+        ctypes.CDLL("libOSMesa.so.8")
+        return True
+    except OSError:
+        return False
 
 
 def versions(libraries):
@@ -113,5 +122,8 @@ def renew():
 if __name__ == "__main__":
     if sys.argv[2:] == ["--renew"]:
         renew()
+    elif sys.argv[2] == "osmesa" and not has_osmesa():
+        print("skipped: OSMesa is not installed (Debian: apt install libosmesa6)")
+        sys.exit(77)
     else:
         unittest.main(argv=sys.argv[:1], defaultTest="Symbols" if sys.argv[2] == "symbols" else "Flights")
