@@ -63,6 +63,8 @@ void Avionics::reset(const SensedTruth& truth) {
   const control::Alignment on_ground = align(heading_rad, heading_rad + kSurveyedHeadingSigmaRad * survey.normal());
   navigation_.reset(on_ground.rotated(q_on_ground.conjugate() * truth.body.q_WB), p_WB_est);
   autopilot_.reset(navigation_.estimate());
+  released_ = false;
+  rate_control_.reset();
 }
 
 /// Reads the sensors at rest on level ground before take-off. Their random streams continue in the flight.
@@ -136,6 +138,24 @@ std::optional<sensors::GpsFix> Avionics::read_gps(int64_t t_ns) {
   const auto v =
       failures_.deliver(Instrument::gps_velocity, t_ns, read ? std::optional(read->v_WB_W_meas) : std::nullopt);
   return p && v ? std::optional(sensors::GpsFix{*p, *v}) : std::nullopt;
+}
+
+Controls Avionics::control(const control::Setpoint& setpoint, double dt_s) {
+  if (released_) autopilot_.reset(navigation_.estimate());
+  released_ = false;
+  rate_control_.reset();
+  return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
+}
+
+Controls Avionics::control(const control::RateSetpoint& setpoint, double dt_s) {
+  if (!rate_control_) rate_control_.emplace(autopilot_.model(), dt_s);
+  released_ = true;
+  return rate_control_->control(setpoint, navigation_.estimate().w_WB_B_est);
+}
+
+void Avionics::release() {
+  released_ = true;
+  rate_control_.reset();
 }
 
 /// Casts the beam only on ticks on which a measurement starts.

@@ -8,6 +8,7 @@
 
 #include "dynamics/control/autopilot.h"
 #include "dynamics/control/navigation.h"
+#include "dynamics/control/rate_control.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/sensors/barometer.h"
 #include "dynamics/sensors/gps.h"
@@ -89,9 +90,11 @@ class Avionics {
   const std::optional<sensors::GpsFix>& gps() const { return gps_fix_; }
   const control::Autopilot& autopilot() const { return autopilot_; }
   /// Returns the actuator commands until the next call. @param dt_s  time until then, > 0, constant during a flight.
-  Controls control(const control::Setpoint& setpoint, double dt_s) {
-    return autopilot_.control(setpoint, navigation_.estimate(), dt_s);
-  }
+  Controls control(const control::Setpoint& setpoint, double dt_s);
+  /// As above, for body rates.
+  Controls control(const control::RateSetpoint& setpoint, double dt_s);
+  /// Leaves the actuators to the caller. The next setpoint starts from the estimate of its instant.
+  void release();
 
  private:
   void reset_optional_sensors();
@@ -120,6 +123,8 @@ class Avionics {
   sensors::SensorFailures failures_;
   control::Navigation navigation_;
   control::Autopilot autopilot_;
+  bool released_ = false;                             ///< whether the last commands were not the autopilot's
+  std::optional<control::RateControl> rate_control_;  ///< while body rates are commanded
 };
 
 }  // namespace hedgehop::dynamics

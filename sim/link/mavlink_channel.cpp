@@ -12,7 +12,7 @@ namespace {
 mavlink::CompanionSetup companion_setup(const Scenario& scenario, mavlink::AutopilotMake make) {
   mavlink::CompanionSetup setup{.make = make};
   // The stand is surveyed. Autopilots put the origin of their local frame where they start.
-  setup.p_start_W = scenario.start.draw_p_WB(stream_seed(scenario.seed, "start"));
+  setup.p_start_W = scenario.start.draw_p_WB(stream_seed(scenario.world(), "start"));
   setup.p_origin_W = setup.p_start_W;
   if (const std::optional<double> stand_m = stand_altitude_m(scenario)) setup.p_origin_W.z() = -*stand_m;
   setup.start_heading_rad = scenario.start.heading_rad;

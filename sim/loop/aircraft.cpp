@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "dynamics/rigid_body.h"
 #include "sim/libm/random.h"
@@ -22,20 +23,34 @@ Aircraft::Aircraft(const Scenario& scenario, const Ticks& ticks, AircraftParts p
       avionics_(std::move(parts.avionics)) {}
 
 void Aircraft::reset(const CollisionWorld& world) {
-  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
+  const Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.world(), "start"));
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   build_part("vehicle", [&] { vehicle_.reset(p_WB, scenario_.start.heading_rad, wind_W_); });
   avionics_.reset(truth(world, 0));
 }
 
 void Aircraft::reset_on_stand(const CollisionWorld& world) {
-  Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.seed, "start"));
+  Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.world(), "start"));
   if (const std::optional<double> stand_m = stand_altitude_m(scenario_)) p_WB.z() = -*stand_m;
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   vehicle_.reset_on_stand(p_WB, scenario_.start.heading_rad, wind_W_);
   p_stand_W_ = p_WB;
   on_stand_ = true;
   avionics_.reset(truth(world, 0));
+}
+
+void Aircraft::follow(const Steering& steering, double dt_s) {
+  if (const auto* const setpoint = std::get_if<dynamics::control::Setpoint>(&steering)) {
+    actuators_ = avionics_.control(*setpoint, dt_s);
+    return;
+  }
+  const auto& direct = std::get<DirectCommand>(steering);
+  if (const auto* const rates = std::get_if<dynamics::control::RateSetpoint>(&direct)) {
+    actuators_ = avionics_.control(*rates, dt_s);
+  } else {
+    avionics_.release();
+    actuators_ = std::get<dynamics::multicopter::PerRotor>(direct);
+  }
 }
 
 void Aircraft::move(int64_t tick) {

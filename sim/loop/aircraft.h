@@ -8,6 +8,7 @@
 #include "sim/collision/proximity.h"
 #include "sim/loop/outside_autopilot.h"
 #include "sim/loop/shutter.h"
+#include "sim/loop/steering.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -29,10 +30,8 @@ class Aircraft {
   void sense(int64_t tick, const CollisionWorld& world, const dynamics::VelocitySensor& flow_velocity = {}) {
     avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);
   }
-  /// Runs the autopilot. @param dt_s  until the next call.
-  void run_autopilot(const dynamics::control::Setpoint& setpoint, double dt_s) {
-    actuators_ = avionics_.control(setpoint, dt_s);
-  }
+  /// Sets the actuator commands that follow a setpoint or a valid direct command. @param dt_s  until the next call.
+  void follow(const Steering& steering, double dt_s);
   /// Replaces the actuator commands of the autopilot.
   void command_actuators(const OutsideCommand& command) {
     actuators_ = command.actuators;

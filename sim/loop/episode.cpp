@@ -44,7 +44,7 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
   begin_tick();
 }
 
-void Episode::tick(const avoidance::Command* command) {
+void Episode::tick(const CallerCommand* command) {
   if (over()) throw std::logic_error("the flight is over");
   if (command || decides()) overridden_ = command != nullptr;
   complete_tick(command);
@@ -68,7 +68,7 @@ void Episode::begin_tick() {
   end(*reason);
 }
 
-void Episode::complete_tick(const avoidance::Command* command) {
+void Episode::complete_tick(const CallerCommand* command) {
   if (command) {
     override_decision(*command);
   } else if (decides() && !overridden_) {
@@ -182,9 +182,15 @@ void Episode::call_module(const std::function<void()>& call) {
   }
 }
 
-void Episode::override_decision(const avoidance::Command& command) {
-  const std::vector<double> no_signals(pilot_.module().signals().size(), std::nan(""));
-  log_.add(ticks_.t_s(tick_), {pilot_.override_decision(tick_, command), "commanded", no_signals});
+void Episode::override_decision(const CallerCommand& command) {
+  if (const auto* const direct = std::get_if<DirectCommand>(&command)) {
+    pilot_.override_decision(tick_, *direct);
+    log_.add_direct_command(ticks_.t_s(tick_));
+  } else {
+    const std::vector<double> no_signals(pilot_.module().signals().size(), std::nan(""));
+    const avoidance::Command given = pilot_.override_decision(tick_, std::get<avoidance::Command>(command));
+    log_.add(ticks_.t_s(tick_), {given, std::string(kCommanded), no_signals});
+  }
   watcher_dispatch_.send_decision(log_.tables(), [this] { return annotate(); });
 }
 
@@ -202,9 +208,9 @@ void Episode::observe_map() {
 }
 
 void Episode::run_autopilot() {
-  const dynamics::control::Setpoint& setpoint = pilot_.setpoint(tick_);
-  if (!outside_) aircraft_.run_autopilot(setpoint, static_cast<double>(control_period_) * ticks_.dt_s());
-  log_.add(ticks_.t_s(tick_), aircraft_, setpoint, proximity_);
+  const Steering& steering = pilot_.steering(tick_);
+  if (!outside_) aircraft_.follow(steering, static_cast<double>(control_period_) * ticks_.dt_s());
+  log_.add(ticks_.t_s(tick_), aircraft_, steering, proximity_);
   watcher_dispatch_.send_row(log_.tables());
 }
 

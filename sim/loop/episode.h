@@ -16,6 +16,7 @@
 #include "sim/loop/module_pilot.h"
 #include "sim/loop/outside_autopilot.h"
 #include "sim/loop/stage_timer.h"
+#include "sim/loop/steering.h"
 #include "sim/loop/velocimeter.h"
 #include "sim/loop/watcher_dispatch.h"
 #include "sim/scenario/flight_parts.h"
@@ -40,8 +41,9 @@ class Episode {
   /// Completes this tick, moves the vehicle and begins the next tick. If the flight ends there, that tick is completed
   /// too. A fault is an outcome, not an exception.
   /// @param command  replaces the module's decision, on any tick; null lets the module decide when a decision is due.
-  /// Throws std::logic_error if the flight is over, std::invalid_argument for a command that is not finite.
-  void tick(const avoidance::Command* command = nullptr);
+  /// Throws std::logic_error if the flight is over, std::invalid_argument for a command that is not finite, or a direct
+  /// command that is not valid for the vehicle.
+  void tick(const CallerCommand* command = nullptr);
   bool over() const { return end_.has_value(); }
   /// Whether a decision is due on this tick.
   bool decides() const { return observation_.has_value(); }
@@ -76,13 +78,13 @@ class Episode {
   void measure_proximity();
   void expose_cameras();
   void read_sensors();
-  void complete_tick(const avoidance::Command* command);
+  void complete_tick(const CallerCommand* command);
   void decide();
   /// Calls the module; an exception ends the flight as a fault.
   void call_module(const std::function<void()>& call);
   /// Returns the module's image; empty if it draws none.
   cv::Mat annotate() const;
-  void override_decision(const avoidance::Command& command);
+  void override_decision(const CallerCommand& command);
   void observe_map();
   void run_autopilot();
   std::optional<Ending> ending() const;

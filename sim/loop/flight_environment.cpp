@@ -12,7 +12,7 @@ namespace {
 /// Returns the scene in air of the scenario's visibility; the sky is seen through a kilometer of that air.
 scenes::Scene visible_scene(const Scenario& scenario, scenes::SceneFiles files) {
   scenes::Scene scene =
-      build_part("scene", [&] { return build_scene(scenario.scene, scenario.seed, std::move(files)); });
+      build_part("scene", [&] { return build_scene(scenario.scene, scenario.world(), std::move(files)); });
   if (const std::optional<double>& visibility_m = scenario.drawing.visibility_m) {
     constexpr double kSkyPathM = 1000.0;
     scene.sky.visibility_m = *visibility_m;
@@ -26,7 +26,7 @@ scenes::Scene visible_scene(const Scenario& scenario, scenes::SceneFiles files) 
 
 FlightEnvironment::FlightEnvironment(const Scenario& scenario)
     : FlightEnvironment(scenario,
-                        build_part("scene", [&] { return read_scene_files(scenario.scene, scenario.seed); })) {}
+                        build_part("scene", [&] { return read_scene_files(scenario.scene, scenario.world()); })) {}
 
 FlightEnvironment::FlightEnvironment(const Scenario& scenario, scenes::SceneFiles files)
     : scene(std::make_shared<const scenes::Scene>(visible_scene(scenario, std::move(files)))),

@@ -17,8 +17,10 @@ struct CommandColumns {
   std::optional<double> altitude_m, heading_rad;
 };
 
-template <class Variant>
-CommandColumns columns(const Variant& command) {
+CommandColumns columns(const DirectCommand&) { return {}; }
+
+template <class... Commands>
+CommandColumns columns(const std::variant<Commands...>& command) {
   return std::visit(
       [](const auto& c) {
         CommandColumns out;
@@ -54,12 +56,11 @@ void FlightLog::add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximit
   }
 }
 
-void FlightLog::add(double t_s, const Aircraft& aircraft, const dynamics::control::Setpoint& setpoint,
-                    const Proximity& proximity) {
+void FlightLog::add(double t_s, const Aircraft& aircraft, const Steering& steering, const Proximity& proximity) {
   const dynamics::RigidBodyState& body = aircraft.body();
   const dynamics::control::NavigationEstimate& navigation = aircraft.navigation();
   hash_.add(body);
-  const CommandColumns command = columns(setpoint);
+  const CommandColumns command = std::visit([](const auto& followed) { return columns(followed); }, steering);
   flight_.trajectory.push_back({.t_s = t_s,
                                 .p_WB_true = body.p_WB,
                                 .rpy_true = dynamics::to_roll_pitch_heading(body.q_WB),
@@ -83,6 +84,11 @@ void FlightLog::add(double t_s, const avoidance::Decision& decision) {
   const CommandColumns command = columns(decision.command);
   flight_.decisions.push_back(
       {t_s, decision.status, command.v_WB_W, command.altitude_m, command.heading_rad, decision.signals});
+}
+
+void FlightLog::add_direct_command(double t_s) {
+  const std::vector<double> no_signals(flight_.signals.size(), std::nan(""));
+  flight_.decisions.push_back({t_s, std::string(kCommanded), {}, {}, {}, no_signals});
 }
 
 Flight FlightLog::flight(double flight_time_s) const {

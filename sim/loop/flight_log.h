@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "avoidance/module.h"
 #include "dynamics/rigid_body.h"
@@ -13,6 +14,7 @@
 #include "sim/flight/flight.h"
 #include "sim/libm/random.h"
 #include "sim/loop/aircraft.h"
+#include "sim/loop/steering.h"
 
 namespace hedgehop::sim {
 
@@ -27,6 +29,9 @@ class TrajectoryHash {
   Fnv1a hash_;
 };
 
+/// Status of a decision that the caller of a simulation replaced.
+inline constexpr std::string_view kCommanded = "commanded";
+
 /// Collects a flight's tables and figures during the flight.
 class FlightLog {
  public:
@@ -39,10 +44,11 @@ class FlightLog {
   /// Call on every physics tick; keeps the closest approaches.
   void add(double t_s, const Eigen::Vector3d& p_WB_true, const Proximity& proximity);
   /// Call on every control tick.
-  void add(double t_s, const Aircraft& aircraft, const dynamics::control::Setpoint& setpoint,
-           const Proximity& proximity);
+  void add(double t_s, const Aircraft& aircraft, const Steering& steering, const Proximity& proximity);
   /// Call on every decision.
   void add(double t_s, const avoidance::Decision& decision);
+  /// Call for every direct command, whose values the table does not contain.
+  void add_direct_command(double t_s);
 
   /// Returns the tables so far, without the figures.
   const Flight& tables() const { return flight_; }

@@ -59,7 +59,7 @@ ModulePilot::ModulePilot(const Scenario& scenario, const Ticks& ticks, Cameras& 
 }
 
 void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold) {
-  setpoint_ = hold;
+  steering_ = hold;
   try {
     module_->reset(module_setup(scenario_, hull));
   } catch (const std::exception& fault) {
@@ -108,23 +108,33 @@ avoidance::Command ModulePilot::override_decision(int64_t tick, avoidance::Comma
   return command;
 }
 
+void ModulePilot::override_decision(int64_t tick, const DirectCommand& command) {
+  require_valid(command, scenario_.vehicle);
+  queue_command(tick, command);
+}
+
 /// Sends a command over the link, which keeps the order.
-void ModulePilot::queue_command(int64_t tick, const avoidance::Command& command) {
+void ModulePilot::queue_command(int64_t tick, CallerCommand command) {
   int64_t latency = latency_;
   if (const FailureConfig* failure = failure_of(scenario_.failures, "link", ticks_.t_ns(tick))) {
     if (failure->mode == FailureConfig::Mode::off) return;
     latency += ticks_.ticks(failure->value.value_or(0.0));
   }
-  pending_.push_back({tick + latency, command});
+  pending_.push_back({tick + latency, std::move(command)});
 }
 
-const dynamics::control::Setpoint& ModulePilot::setpoint(int64_t tick) {
+const Steering& ModulePilot::steering(int64_t tick) {
   while (!pending_.empty() && pending_.front().tick <= tick) {
-    command_ = pending_.front().command;
-    setpoint_ = to_setpoint(*command_);
+    const CallerCommand& command = pending_.front().command;
+    if (const auto* const direct = std::get_if<DirectCommand>(&command)) {
+      steering_ = *direct;
+    } else {
+      command_ = std::get<avoidance::Command>(command);
+      steering_ = to_setpoint(*command_);
+    }
     pending_.pop_front();
   }
-  return setpoint_;
+  return steering_;
 }
 
 bool ModulePilot::sees_through_walls() const {

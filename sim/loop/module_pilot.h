@@ -13,6 +13,7 @@
 #include "dynamics/hull.h"
 #include "sim/loop/cameras.h"
 #include "sim/loop/route.h"
+#include "sim/loop/steering.h"
 #include "sim/loop/ticks.h"
 #include "sim/scenario/scenario.h"
 
@@ -46,11 +47,13 @@ class ModulePilot {
   /// Queues a command that replaces the module's decision. A speed above the limit is scaled down to the limit. Throws
   /// std::invalid_argument if it is not finite. @return the command as it will take effect.
   avoidance::Command override_decision(int64_t tick, avoidance::Command command);
+  /// As above, for a direct command. Throws std::invalid_argument if it is not valid for the vehicle.
+  void override_decision(int64_t tick, const DirectCommand& command);
 
-  /// Returns the setpoint of the autopilot: the last command whose latency is over. @param tick  increasing.
-  const dynamics::control::Setpoint& setpoint(int64_t tick);
+  /// Returns the last command whose latency is over, as the aircraft follows it. @param tick  increasing.
+  const Steering& steering(int64_t tick);
 
-  /// Returns the command of that setpoint; null before the first.
+  /// Returns the command of the autopilot's last setpoint; null before the first.
   const avoidance::Command* command_in_effect() const { return command_ ? &*command_ : nullptr; }
 
   const avoidance::Module& module() const { return *module_; }
@@ -64,12 +67,12 @@ class ModulePilot {
   double command_latency_s() const { return ticks_.t_s(latency_); }  ///< from a decision to its command's effect
 
  private:
-  void queue_command(int64_t tick, const avoidance::Command& command);
+  void queue_command(int64_t tick, CallerCommand command);
 
   /// A command before its latency is over.
   struct PendingCommand {
     int64_t tick = 0;
-    avoidance::Command command;
+    CallerCommand command;
   };
 
   const Scenario& scenario_;
@@ -84,7 +87,7 @@ class ModulePilot {
   std::vector<avoidance::CameraFrame> seen_;  ///< the module's frames of this tick
   std::deque<PendingCommand> pending_;
   std::optional<avoidance::Command> command_;
-  dynamics::control::Setpoint setpoint_;
+  Steering steering_;
 };
 
 /// Converts a module's command to a setpoint of the autopilot.

@@ -93,7 +93,7 @@ std::optional<FlownPath> read_path(const std::filesystem::path& flight_folder, u
     const Table trajectory(flight_folder / "trajectory.csv");
     const auto north = trajectory.numbers("north_m"), east = trajectory.numbers("east_m");
     const auto down = trajectory.numbers("down_m");
-    FlownPath path{.scene = scenario.scene, .seed = seed, .goal = scenario.goal};
+    FlownPath path{.scene = scenario.scene, .seed = scenario.world_seed.value_or(seed), .goal = scenario.goal};
     for (size_t i = 0; i < north.size(); ++i) path.p_NE_m.emplace_back(north[i], east[i]);
     path.p_NE_m = simplified(path.p_NE_m, kPathToleranceM, max_points);
     if (!down.empty()) {

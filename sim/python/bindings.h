@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "avoidance/module.h"
+#include "sim/simulation/simulation.h"
 
 /// The C++ part of the Python package `hedgehop`: states, commands, modules and the simulation. Names of numbers end in
 /// their units.
@@ -26,6 +27,9 @@ Observation to_python(const avoidance::Observation& observation);
 
 /// Returns the decision from a command or a Decision. Throws std::invalid_argument for any other object.
 avoidance::Decision to_decision(const pybind11::handle& answer);
+
+/// Returns the command that a caller gives to a simulation: as of to_decision(), or a direct command.
+sim::CallerCommand to_caller_command(const pybind11::handle& command);
 
 /// Returns a module implemented by a Python object. Each call holds the lock of the interpreter. Python exceptions
 /// become std::runtime_error with one line that includes the places.

@@ -70,8 +70,10 @@ class PySimulation {
     return *simulation_;
   }
 
-  Observation reset(std::optional<uint64_t> seed) {
-    unlocked([&](sim::Simulation& s) { seed ? s.reset(*seed) : s.reset(); });
+  Observation reset(std::optional<uint64_t> seed, std::optional<uint64_t> world_seed) {
+    unlocked([&](sim::Simulation& s) {
+      s.reset(seed.value_or(s.scenario().seed), world_seed ? world_seed : s.scenario().world_seed);
+    });
     return seen();
   }
   Observation seen() { return to_python(get().seen()); }
@@ -131,7 +133,7 @@ class PySimulation {
       unlocked(plain);
     } else {
       is_steered_ = true;
-      const avoidance::Command given = to_decision(command).command;
+      const sim::CallerCommand given = to_caller_command(command);
       unlocked([&](sim::Simulation& s) { commanded(s, given); });
     }
   }
@@ -187,7 +189,7 @@ std::unique_ptr<PySimulation> make(const std::optional<std::string>& file, const
 void bind_simulation(py::module_& native) {
   py::class_<PySimulation>(native, "Simulation")
       .def(py::init(&make), "file"_a, "text"_a, "seed"_a, "overrides"_a, "module"_a, "cameras"_a)
-      .def("reset", &PySimulation::reset, "seed"_a)
+      .def("reset", &PySimulation::reset, "seed"_a, "world_seed"_a)
       .def("step", &PySimulation::step, "command"_a)
       .def("tick", &PySimulation::tick, "command"_a)
       .def("run_through", &PySimulation::run_through)
@@ -238,6 +240,20 @@ void bind_simulation(py::module_& native) {
       .def("decides", [](PySimulation& s) { return s.get().decides(); })
       .def("t_s", [](PySimulation& s) { return s.get().t_s(); })
       .def("seed", [](PySimulation& s) { return s.get().scenario().seed; })
+      .def("world_seed", [](PySimulation& s) { return s.get().scenario().world_seed; })
+      .def("control_rate_hz", [](PySimulation& s) { return s.get().scenario().control_rate_hz; })
+      .def(
+          "channel",
+          [](PySimulation& s, const std::string& role) {
+            s.get().camera(role);  // refuses a role that the rig lacks
+            return s.get().scenario().rig.find(role)->channel;
+          },
+          "role"_a)
+      .def("direct_hover",
+           [](PySimulation& s) {
+             const sim::DirectHover hover = sim::direct_hover(s.get().scenario().vehicle);
+             return py::make_tuple(hover.thrust, Eigen::VectorXd(hover.speeds_radps), hover.highest_radps);
+           })
       .def("limits",
            [](PySimulation& s) {
              const auto& limits = s.get().scenario().avionics.autopilot;

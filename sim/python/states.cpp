@@ -15,6 +15,13 @@ using namespace avoidance;
 
 namespace {
 
+using dynamics::control::RateSetpoint;
+using dynamics::multicopter::PerRotor;
+
+struct MotorCommand {
+  Eigen::VectorXd speeds_radps;
+};
+
 void bind_commands(py::module_& native) {
   py::class_<VelocityCommand>(native, "VelocityCommand",
                               "Fly at a horizontal velocity (north, east), and hold altitude and heading.")
@@ -44,6 +51,20 @@ void bind_commands(py::module_& native) {
   py::class_<HoverCommand>(native, "HoverCommand", "Hover, with a yaw rate.")
       .def(py::init([](double yaw_rate_radps) { return HoverCommand{yaw_rate_radps}; }), "yaw_rate_radps"_a = 0.0)
       .def_readwrite("yaw_rate_radps", &HoverCommand::yaw_rate_radps);
+  py::class_<RateSetpoint>(
+      native, "BodyRateCommand",
+      "Turn at body rates with a share of the thrust, below the autopilot; for Simulation, not for modules.")
+      .def(py::init([](const Eigen::Vector3d& w, double thrust) {
+             return RateSetpoint{w, thrust};
+           }),
+           "w_WB_B_radps"_a, "thrust"_a)
+      .def_readwrite("w_WB_B_radps", &RateSetpoint::w_WB_B)
+      .def_readwrite("thrust", &RateSetpoint::thrust);
+  py::class_<MotorCommand>(
+      native, "MotorCommand",
+      "Speed of each rotor of a multicopter, below the autopilot; for Simulation, not for modules.")
+      .def(py::init([](const Eigen::VectorXd& speeds) { return MotorCommand{speeds}; }), "speeds_radps"_a)
+      .def_readwrite("speeds_radps", &MotorCommand::speeds_radps);
   py::class_<Decision>(native, "Decision", "A command, a status word, and the values of the module's signals.")
       .def(py::init([](const Command& command, std::string status, std::vector<double> signals) {
              return Decision{command, std::move(status), std::move(signals)};
@@ -226,6 +247,17 @@ Decision to_decision(const py::handle& answer) {
     throw std::invalid_argument("expected a command or a Decision, got " +
                                 std::string(py::str(py::type::of(answer).attr("__name__"))));
   }
+}
+
+sim::CallerCommand to_caller_command(const py::handle& command) {
+  if (py::isinstance<RateSetpoint>(command)) return sim::DirectCommand(command.cast<RateSetpoint>());
+  if (!py::isinstance<MotorCommand>(command)) return to_decision(command).command;
+  const Eigen::VectorXd& speeds_radps = command.cast<const MotorCommand&>().speeds_radps;
+  if (speeds_radps.size() > PerRotor::MaxRowsAtCompileTime) {
+    throw std::invalid_argument("a vehicle has at most " + std::to_string(PerRotor::MaxRowsAtCompileTime) +
+                                " rotors, got " + std::to_string(speeds_radps.size()) + " speeds");
+  }
+  return sim::DirectCommand(PerRotor(speeds_radps));
 }
 
 void bind_states(py::module_& native) {

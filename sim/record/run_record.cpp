@@ -8,7 +8,7 @@ namespace hedgehop::sim {
 namespace {
 
 std::shared_ptr<const scenes::Scene> regenerate_scene(const Scenario& scenario, uint64_t seed) {
-  return std::make_shared<const scenes::Scene>(build_scene(scenario.scene, seed));
+  return std::make_shared<const scenes::Scene>(build_scene(scenario.scene, scenario.world_seed.value_or(seed)));
 }
 
 }  // namespace

@@ -53,16 +53,16 @@ InputError at_positions(const Node* root, const InputError& error) {
   return InputError(lines);
 }
 
-scenes::SceneFiles read_scene_files(const scenes::SceneConfig& config, uint64_t run_seed) {
-  return scenes::read_scene_files(config, stream_seed(run_seed, kSceneStream));
+scenes::SceneFiles read_scene_files(const scenes::SceneConfig& config, uint64_t world_seed) {
+  return scenes::read_scene_files(config, stream_seed(world_seed, kSceneStream));
 }
 
-scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed) {
-  return scenes::make_scene(config, stream_seed(run_seed, kSceneStream));
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t world_seed) {
+  return scenes::make_scene(config, stream_seed(world_seed, kSceneStream));
 }
 
-scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed, scenes::SceneFiles files) {
-  return scenes::make_scene(config, stream_seed(run_seed, kSceneStream), std::move(files));
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t world_seed, scenes::SceneFiles files) {
+  return scenes::make_scene(config, stream_seed(world_seed, kSceneStream), std::move(files));
 }
 
 AircraftParts build_aircraft(const Scenario& scenario) {

@@ -81,13 +81,14 @@ avoidance::Setup module_setup(const Scenario& scenario, const std::vector<dynami
 /// As above, for the scenario's own vehicle.
 avoidance::Setup module_setup(const Scenario& scenario);
 
-/// Reads the files of the scene of a flight. @param run_seed  of the flight.
+/// Reads the files of the scene of a flight. @param world_seed  Scenario::world().
 /// Throws std::invalid_argument that begins with the faulty key.
-scenes::SceneFiles read_scene_files(const scenes::SceneConfig& config, uint64_t run_seed);
+scenes::SceneFiles read_scene_files(const scenes::SceneConfig& config, uint64_t world_seed);
 
-/// Returns the scene of a flight for the run's seed. Throws std::invalid_argument on an invalid scene.
-scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed);
+/// Returns the scene of a flight. @param world_seed  Scenario::world(). Throws std::invalid_argument on an invalid
+/// scene.
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t world_seed);
 /// As above. @param files  from read_scene_files() for the same arguments.
-scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t run_seed, scenes::SceneFiles files);
+scenes::Scene build_scene(const scenes::SceneConfig& config, uint64_t world_seed, scenes::SceneFiles files);
 
 }  // namespace hedgehop::sim

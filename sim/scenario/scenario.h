@@ -158,6 +158,7 @@ struct Scenario {
   std::vector<std::string> tags;
   std::string notes;
   uint64_t seed = 1;
+  std::optional<uint64_t> world_seed;  ///< default: `seed`
   double duration_s = 60.0;
   std::optional<int64_t> physics_rate_hz;  ///< default: set_physics_rate()
   int64_t control_rate_hz = 100;
@@ -181,6 +182,9 @@ struct Scenario {
   bool may_collide = false;  ///< if false, `no_collision` is always checked
   FilmConfig film;
   std::optional<OriginConfig> origin;
+
+  /// The seed of the scene and of the start. All other random streams have `seed`.
+  uint64_t world() const { return world_seed.value_or(seed); }
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
@@ -189,6 +193,8 @@ void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("tags", c.tags, {.meaning = "labels in the index of `hedgehop runs`; do not affect the flight"});
   v("notes", c.notes, {.meaning = "remarks in the index of `hedgehop runs`; do not affect the flight"});
   v("seed", c.seed, {.meaning = "seed of every random stream of the flight"});
+  v("world_seed", c.world_seed,
+    {.meaning = "seed of the scene and of the drawn start instead of `seed`: the same world with other noise"});
   v("duration", c.duration_s, {.unit = "s", .above = 0.0, .at_most = 86400.0, .meaning = "maximum flight time"});
   v("physics_rate", c.physics_rate_hz,
     {.unit = "Hz",

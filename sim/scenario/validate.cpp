@@ -155,7 +155,7 @@ class Validator {
             fmt::format("{} m is outside the altitude_band, {} to {} m", start_m, band->min_m, band->max_m));
       }
     }
-    build("scene", [&] { files_ = read_scene_files(scenario_.scene, scenario_.seed); });
+    build("scene", [&] { files_ = read_scene_files(scenario_.scene, scenario_.world()); });
     build("vehicle", [&] { vehicle_.emplace(scenario_.vehicle); });
     build("wind", [&] { wind_.emplace(build_wind(scenario_)); });
     // If the vehicle is invalid, the avionics are checked with a valid one, so that each error is reported once.

@@ -61,24 +61,26 @@ class Simulation::Impl {
     begin(std::move(parts));
   }
 
-  void reset(uint64_t seed) {
+  void reset(uint64_t seed, std::optional<uint64_t> world_seed) {
     if (outside_) throw std::logic_error("a linked flight cannot start again");
     episode_.reset();
-    if (seed != scenario_.seed) {
-      scenario_.seed = seed;
+    const uint64_t world = scenario_.world();
+    scenario_.seed = seed;
+    scenario_.world_seed = world_seed;
+    if (scenario_.world() != world || !environment_) {
       environment_.reset();
       environment_.emplace(scenario_);
     }
     begin(build_parts(scenario_));
   }
 
-  bool tick(const avoidance::Command* command) {
+  bool tick(const CallerCommand* command) {
     const Stopwatch stopwatch(flying_s_);
     episode_->tick(command);
     return !episode_->over();
   }
 
-  bool step(const avoidance::Command* command) {
+  bool step(const CallerCommand* command) {
     const Stopwatch stopwatch(flying_s_);
     episode_->tick(command);
     while (!episode_->over() && !episode_->decides()) episode_->tick();
@@ -160,13 +162,14 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-void Simulation::reset() { impl_->reset(scenario().seed); }
-void Simulation::reset(uint64_t seed) { impl_->reset(seed); }
+void Simulation::reset() { reset(scenario().seed); }
+void Simulation::reset(uint64_t seed) { reset(seed, scenario().world_seed); }
+void Simulation::reset(uint64_t seed, std::optional<uint64_t> world_seed) { impl_->reset(seed, world_seed); }
 
 bool Simulation::step() { return impl_->step(nullptr); }
-bool Simulation::step(const avoidance::Command& command) { return impl_->step(&command); }
+bool Simulation::step(const CallerCommand& command) { return impl_->step(&command); }
 bool Simulation::tick() { return impl_->tick(nullptr); }
-bool Simulation::tick(const avoidance::Command& command) { return impl_->tick(&command); }
+bool Simulation::tick(const CallerCommand& command) { return impl_->tick(&command); }
 void Simulation::fly_to(double t_s) { impl_->fly_to(t_s); }
 
 Flight Simulation::run() {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "sim/collision/proximity.h"
 #include "sim/flight/flight.h"
 #include "sim/flight/flight_watcher.h"
+#include "sim/loop/steering.h"
 #include "sim/render/renderer.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -58,18 +60,22 @@ class Simulation {
 
   /// Starts the same flight again, with the same scene and renderer. Throws std::logic_error for a linked flight.
   void reset();
-  /// Starts the flight of another seed, with its world.
+  /// Starts the flight of another seed. A world of its own (Scenario::world_seed) is kept, which is as fast as reset().
   void reset(uint64_t seed);
+  /// As above, in another world. @param world_seed  as Scenario::world_seed.
+  void reset(uint64_t seed, std::optional<uint64_t> world_seed);
 
   /// Lets the module decide if a decision is due, then flies to the next decision or to the end.
   /// @return whether the flight continues. Throws std::logic_error if it is over.
   bool step();
   /// As step(), but the command replaces the module's decision. It takes effect after the scenario's latency. A speed
-  /// above the vehicle's limit is scaled down to the limit. Throws std::invalid_argument if it is not finite.
-  bool step(const avoidance::Command& command);
+  /// above the vehicle's limit is scaled down to the limit. Body rates and motor speeds (DirectCommand) replace the
+  /// autopilot too, until the next command. Throws std::invalid_argument if a value is not finite, or a direct command
+  /// is out of its range.
+  bool step(const CallerCommand& command);
   /// As step(), but for one physics step. A command is allowed on any step, even if no decision is due.
   bool tick();
-  bool tick(const avoidance::Command& command);
+  bool tick(const CallerCommand& command);
   /// Lets the module fly to a time, s from the start; has no effect if that time is past. Throws InputError if the
   /// flight ends before.
   void fly_to(double t_s);

@@ -66,7 +66,7 @@ std::vector<MetricValue> corridor_metrics(const Scenario& scenario, const Flight
   const auto* corridor = std::get_if<scenes::worlds::CorridorConfig>(&scenario.scene);
   if (!corridor || flight.trajectory.empty()) return {};
   const scenes::worlds::CorridorPlan plan =
-      scenes::worlds::plan_corridor(*corridor, stream_seed(scenario.seed, kSceneStream));
+      scenes::worlds::plan_corridor(*corridor, stream_seed(scenario.world(), kSceneStream));
   std::vector<double> offs_m;
   double settled_m = std::numeric_limits<double>::quiet_NaN();
   constexpr double kSettledM = 15.0;

@@ -27,7 +27,7 @@ class OutdoorFlight {
       aircraft_.sense(tick_, world_);
       if (tick_ % kTicksPerControl == 0) {
         const bool out = tick_ / ticks_.ticks(10.0) % 2 == 0;
-        aircraft_.run_autopilot(dynamics::control::VelocitySetpoint{{out ? 3.0 : -3.0, 1.0}, 12.0, 0.5}, control_dt_s);
+        aircraft_.follow(dynamics::control::VelocitySetpoint{{out ? 3.0 : -3.0, 1.0}, 12.0, 0.5}, control_dt_s);
       }
       aircraft_.move(tick_);
     }
