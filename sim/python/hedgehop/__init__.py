@@ -9,8 +9,8 @@ from . import _missing
 _missing.explain(__file__)
 
 from . import _repr
-from ._native import (ActionPilot, AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, InputError, MountedCamera,
-                      NavigationState, Observation, PositionCommand, Proximity, Setup, TrueMotion, VehicleLimits,
+from ._native import (ActionPilot, AttitudeCommand, BodyRateCommand, CameraNeed, Decision, Goal, HoverCommand, InputError,
+                      MotorCommand, MountedCamera, NavigationState, Observation, PositionCommand, Proximity, Setup, TrueMotion, VehicleLimits,
                       VelocityCommand, build, state_of, version)
 from .campaigns import batch, sweep
 from .environment import Env
@@ -19,11 +19,14 @@ from .simulation import Simulation
 from .vector import VectorEnv
 
 __version__ = version
-for _class in (AttitudeCommand, CameraNeed, Decision, Goal, HoverCommand, MountedCamera, NavigationState, Observation,
-               PositionCommand, Proximity, Setup, TrueMotion, VehicleLimits, VelocityCommand):
+_COMMANDS = (AttitudeCommand, BodyRateCommand, HoverCommand, MotorCommand, PositionCommand, VelocityCommand)
+for _class in (*_COMMANDS, CameraNeed, Decision, Goal, MountedCamera, NavigationState, Observation,
+               Proximity, Setup, TrueMotion, VehicleLimits):
     _class.__repr__ = _repr.text
-__all__ = ["ActionPilot", "AttitudeCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand",
-           "InputError", "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup",
+for _class in _COMMANDS:
+    _class.__reduce__ = _repr.rebuilt
+__all__ = ["ActionPilot", "AttitudeCommand", "BodyRateCommand", "CameraNeed", "Decision", "Env", "Flight", "Goal", "HoverCommand",
+           "InputError", "MotorCommand", "MountedCamera", "NavigationState", "Observation", "PositionCommand", "Proximity", "Setup",
            "Simulation", "TrueMotion", "VectorEnv", "VehicleLimits", "VelocityCommand", "batch", "build", "load", "state_of", "sweep",
            "to_frame", "version"]
 
@@ -32,4 +35,4 @@ try:
 except ImportError:
     pass
 else:
-    _gymnasium.register("hedgehop/Avoid-v0", entry_point=Env)
+    _gymnasium.register("hedgehop/Avoid-v0", entry_point="hedgehop.environment:Env", vector_entry_point="hedgehop.vector:VectorEnv")

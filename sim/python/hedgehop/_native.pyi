@@ -33,6 +33,15 @@ class HoverCommand:
     yaw_rate_radps: float
     def __init__(self, yaw_rate_radps: float = 0.0) -> None: ...
 
+class BodyRateCommand:
+    w_WB_B_radps: Vector
+    thrust: float
+    def __init__(self, w_WB_B_radps: ArrayLike, thrust: float) -> None: ...
+
+class MotorCommand:
+    speeds_radps: Vector
+    def __init__(self, speeds_radps: ArrayLike) -> None: ...
+
 class Decision:
     command: Command
     status: str

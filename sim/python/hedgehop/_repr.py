@@ -28,8 +28,18 @@ def _attribute(instance, name):
         return f"<{error}>"
 
 
+def _names(cls):
+    """Returns the attributes in their order of definition."""
+    return [name for name, member in vars(cls).items() if isinstance(member, property)]
+
+
 def text(instance):
-    """Returns "Class(name=value, ...)" with the attributes in their order of definition."""
+    """Returns "Class(name=value, ...)"."""
     cls = type(instance)
-    names = [name for name, member in vars(cls).items() if isinstance(member, property)]
-    return f"{cls.__name__}({', '.join(f'{name}={_attribute(instance, name)}' for name in names)})"
+    return f"{cls.__name__}({', '.join(f'{name}={_attribute(instance, name)}' for name in _names(cls))})"
+
+
+def rebuilt(instance):
+    """Pickles an object whose constructor takes its attributes in their order of definition, as that of commands."""
+    cls = type(instance)
+    return cls, tuple(getattr(instance, name) for name in _names(cls))

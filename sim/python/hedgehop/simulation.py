@@ -56,12 +56,14 @@ class Simulation:
         state = "over" if self.over else f"t_s={self.t_s:.6g}"
         return f"Simulation({self._native.file()!r}, seed={self.seed}, {state}, cameras={list(self._native.roles())})"
 
-    def reset(self, seed: Optional[int] = None) -> _native.Observation:
-        """Starts a new flight and returns its first Observation. Without a seed, the same flight is about 40 times faster to start."""
-        return self._native.reset(seed)
+    def reset(self, seed: Optional[int] = None, world_seed: Optional[int] = None) -> _native.Observation:
+        """Starts a new flight and returns its first Observation. world_seed  as the key of the scenario. The default of both is
+        that of the flight before. In the same world, a flight is about 40 times faster to start."""
+        return self._native.reset(seed, world_seed)
 
     def step(self, command=None) -> _native.Observation:
-        """Applies a command, or that of the module, and flies to the next decision or the end.
+        """Applies a command, or that of the module, and flies to the next decision or the end. BodyRateCommand and
+        MotorCommand replace the autopilot too, until the next command.
 
         Returns the new Observation. Its images are views of the memory of the simulator, which are valid until the
         simulation continues. Copy images to keep them.
@@ -105,6 +107,11 @@ class Simulation:
         return self._native.seed()
 
     @property
+    def world_seed(self) -> Optional[int]:
+        """The seed of the world; None if it is that of the flight."""
+        return self._native.world_seed()
+
+    @property
     def observation(self) -> _native.Observation:
         """The current input of the module."""
         return self._native.seen()
@@ -123,6 +130,10 @@ class Simulation:
     def cameras(self) -> "dict[str, _native.MountedCamera]":
         """All cameras of the rig by role."""
         return {role: self._native.camera(role) for role in self._native.roles()}
+
+    def channel(self, role: str) -> str:
+        """Returns the channel of a camera: grey, color, depth or corners."""
+        return self._native.channel(role).name
 
     def image(self, role: str, channel: str = "grey") -> np.ndarray:
         """Returns the current image of a camera as grey, color, depth, labels or semantic, with its
@@ -157,6 +168,17 @@ class Simulation:
     def limits(self) -> "tuple[float, float]":
         """Limits of the autopilot: (speed, m/s; acceleration, m/s2)."""
         return self._native.limits()
+
+    @property
+    def control_rate_hz(self) -> int:
+        """Rate at which commands act, and of the rows of the trajectory."""
+        return self._native.control_rate_hz()
+
+    @property
+    def direct_hover(self) -> "tuple[float, np.ndarray, float]":
+        """The direct commands of a hover in still air: the thrust of a BodyRateCommand, the speeds of a MotorCommand (rad/s), and
+        the maximum of a speed. A helicopter has no speeds."""
+        return self._native.direct_hover()
 
     @property
     def scenario_yaml(self) -> str:
