@@ -1,5 +1,6 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 #include <assimp/Importer.hpp>
 #include <exception>
 #include <optional>
@@ -160,5 +161,10 @@ Model read_file(const std::filesystem::path& file, const std::optional<ModelOrig
 Model read_model(const std::filesystem::path& file, const ModelOrigin& origin) { return read_file(file, origin); }
 
 Model read_materials(const std::filesystem::path& file) { return read_file(file, std::nullopt); }
+
+std::string importer_version() {
+  return "assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
+         std::to_string(aiGetVersionPatch());
+}
 
 }  // namespace hedgehop::scenes::mesh

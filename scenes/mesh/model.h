@@ -84,6 +84,9 @@ Model read_obj(const std::filesystem::path& file, std::string_view text, const M
 /// The same for read_materials().
 Model read_obj_materials(const std::filesystem::path& file, std::string_view text);
 
+/// Returns the library that reads DAE, PLY, STL and glTF 1: "assimp 5.2.5"; empty if this build cannot read meshes.
+std::string importer_version();
+
 /// A glTF of version 1.
 class OldGltf : public std::invalid_argument {
  public:

@@ -192,7 +192,7 @@ std::vector<FlightRecord> records_of(const Table& table) {
     if (record.status != FlightRecord::Status::flown) continue;
     RunResult& result = record.result.emplace();
     result.info.build = builds[i];
-    result.flight.libraries = {.images = libraries[i], .functions = {}, .renderer = renderers[i]};
+    result.flight.libraries = {.images = libraries[i], .functions = {}, .others = {}, .renderer = renderers[i]};
     result.flight.outcome = parse_outcome(outcomes[i]).value_or(Outcome::fault);
     result.flight.cause = causes[i];
     if (!truths[i].empty()) result.flight.truth_used.push_back(truths[i]);

@@ -126,11 +126,12 @@ struct StageTime {
   double median_ms = 0.0, p95_ms = 0.0;
 };
 
-/// The libraries on which the bits of a flight depend, in addition to the build. Equal builds and libraries fly equal
-/// flights.
+/// The libraries on which the bits of a flight may depend, in addition to the build. Equal builds and libraries fly
+/// equal flights.
 struct Libraries {
   std::string images;     ///< image processing: "OpenCV 4.6.0"
   std::string functions;  ///< mathematical functions: "SLEEF 3.5.1"
+  std::string others;     ///< "Eigen 3.4.0, Bullet 3.24, assimp 5.2.5, GNU 12.2.0"
   std::string renderer;   ///< one line: "tiles", or vendor, renderer and version of OpenGL
 };
 

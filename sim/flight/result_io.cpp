@@ -205,6 +205,7 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
   json["trajectory_hash"] = result.trajectory_hash;
   json["libraries"] = Json{{"images", result.libraries.images},
                            {"functions", result.libraries.functions},
+                           {"others", result.libraries.others},
                            {"renderer", result.libraries.renderer}};
   json["scene"] = Json{{"obstacles", result.scene.solids},
                        {"min_gap_m", json_number(result.scene.smallest_gap_m)},
@@ -256,7 +257,8 @@ RunResult result_from_json(const Json& json) {
   flight.checks = checks_from(result);
   flight.trajectory_hash = result.text("trajectory_hash");
   const JsonReader libraries = result.object("libraries");
-  flight.libraries = {libraries.text("images"), libraries.text("functions"), libraries.text("renderer")};
+  flight.libraries = {libraries.text("images"), libraries.text("functions"), libraries.text("others"),
+                      libraries.text("renderer")};
   flight.metrics = metrics_from(result);
   const JsonReader scene = result.object("scene");
   scene.refuse_renamed(kRenamedSceneKeys);

@@ -11,8 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenes/mesh/model.h"
 #include "sim/collision/proximity.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/libm/libm.h"
 #include "sim/loop/episode.h"
 #include "sim/scenario/validate.h"
@@ -34,6 +36,17 @@ class Stopwatch {
   double& sum_s_;
   std::chrono::steady_clock::time_point start_;
 };
+
+Libraries libraries(const std::string& renderer) {
+  std::vector<std::string> others = {
+      fmt::format("Eigen {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION), bullet_version()};
+  if (const std::string importer = scenes::mesh::importer_version(); !importer.empty()) others.push_back(importer);
+  others.emplace_back(build_compiler());
+  return {.images = "OpenCV " + cv::getVersionString(),
+          .functions = libm_version(),
+          .others = fmt::format("{}", fmt::join(others, ", ")),
+          .renderer = renderer};
+}
 
 }  // namespace
 
@@ -109,7 +122,7 @@ class Simulation::Impl {
     Flight flight = episode_->flight();
     flight.result.wall_s = flying_s_;
     flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
-    flight.result.libraries = {"OpenCV " + cv::getVersionString(), libm_version(), environment_->renderer.info()};
+    flight.result.libraries = libraries(environment_->renderer.info());
     judge_->conclude(flight);
     assess(scenario_, *flight.scene, environment_->hull, flight);
     return flight;
@@ -269,8 +282,8 @@ ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles
 }
 
 std::string package_versions() {
-  return fmt::format("OpenCV {}, {}, Eigen {}.{}.{}, {}, {}", cv::getVersionString(), libm_version(),
-                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, bullet_version(), build_compiler());
+  const Libraries used = libraries({});
+  return fmt::format("{}, {}", library_words(used), used.others);
 }
 
 }  // namespace hedgehop::sim

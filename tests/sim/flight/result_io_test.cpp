@@ -56,7 +56,7 @@ FlightResult distinct_result() {
               {"reached_goal", true, 24.5, 30.0, "s", "<=", {}},
               {"clearance", true, 25.5, 1.5, "m", ">=", 26.5}};
   r.trajectory_hash = "fedcba9876543210";
-  r.libraries = {.images = "OpenCV", .functions = "SLEEF", .renderer = "tiles"};
+  r.libraries = {.images = "OpenCV", .functions = "SLEEF", .others = "Eigen", .renderer = "tiles"};
   r.metrics = {{"path_excess", 27.5, "m", FigureKind::judged},
                {"module.corners", 28.5, "", FigureKind::module},
                {"filter_ms", 29.5, "ms", FigureKind::wall_time}};
@@ -119,6 +119,7 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   EXPECT_EQ(f.trajectory_hash, r.trajectory_hash);
   EXPECT_EQ(f.libraries.images, r.libraries.images);
   EXPECT_EQ(f.libraries.functions, r.libraries.functions);
+  EXPECT_EQ(f.libraries.others, r.libraries.others);
   EXPECT_EQ(f.libraries.renderer, r.libraries.renderer);
   ASSERT_EQ(f.metrics.size(), r.metrics.size());
   for (size_t i = 0; i < r.metrics.size(); ++i) {
