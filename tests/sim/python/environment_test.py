@@ -149,9 +149,12 @@ class Alone(unittest.TestCase):
 
 
 class Images(unittest.TestCase):
+    DURATION_S = 2.0
+
     def env(self, drop=0.0, **camera):
         values = {f"rig.cameras.2.{key}": value for key, value in camera.items()}
-        return hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, **values, "rig.cameras.2.imperfections": {"drop": drop}})
+        return hedgehop.Env(CITY, cameras=["front"], set={**SETTINGS, **values, "rig.cameras.2.imperfections": {"drop": drop},
+                                                          "duration": self.DURATION_S, "world_seed": 1})
 
     def test_are_rows_by_columns_by_channels(self):
         for channel, channels in (("grey", 1), ("color", 3), ("depth", 1)):
@@ -218,7 +221,7 @@ class Images(unittest.TestCase):
             steps = 1
             while not env.step([0, 0, 0, 0])[3]:
                 steps += 1
-            self.assertEqual(steps, np.ceil(SETTINGS["duration"] * rate))
+            self.assertEqual(steps, self.DURATION_S * rate)
 
 
 class Options(unittest.TestCase):
