@@ -118,9 +118,9 @@ bool keeps(const RunOptions& options, const char* artifact, bool failed) {
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
                    bool has_report) {
-  const bool as_asked = result.outcome == Outcome::timeout && !scenario.goal;
-  fmt::print("{}, seed {}: {} after {:.1f} s of flight{}\n", scenario.name, scenario.seed, to_string(result.outcome),
-             result.flight_time_s, as_asked ? ", its full time" : "");
+  const bool completed = result.outcome == Outcome::timeout && !scenario.goal;
+  fmt::print("{}, seed {}: {} after {:.1f} s of flight\n", scenario.name, scenario.seed,
+             completed ? "completed" : to_string(result.outcome), result.flight_time_s);
   if (!result.cause.empty()) fmt::print("  cause: {}\n", result.cause);
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
