@@ -6,6 +6,7 @@
 
 #include "dynamics/rigid_body.h"
 #include "sim/collision/proximity.h"
+#include "sim/verdict/disc_clearance.h"
 #include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {
@@ -74,21 +75,13 @@ using Rows = std::vector<TrajectoryRow>;
 /// at the goal's altitude, m.
 std::optional<double> shortest_free_path_m(const GoalConfig& goal, const Eigen::Vector3d& start_W,
                                            const scenes::Scene& scene, double vehicle_radius_m) {
-  constexpr double kHalfThicknessM = 0.05, kMinCellM = 0.25, kMaxCells = 1000.0, kMarginM = 5.0, kAtStartS = 0.0;
-  constexpr double kReachM = 8.0;  // of a query; obstacles beyond have no effect
-  const dynamics::HullPart disc{.shape = dynamics::HullPart::Shape::cylinder,
-                                .half_extents_m = {vehicle_radius_m, vehicle_radius_m, kHalfThicknessM}};
-  CollisionWorld world(scene, {disc});
+  constexpr double kHalfThicknessM = 0.05, kMinCellM = 0.25, kMaxCells = 1000.0, kMarginM = 5.0, kReachM = 8.0;
   Eigen::AlignedBox2d bounds = scene.bounds_NE_m;
   bounds.extend(Eigen::Vector2d(start_W.head<2>())).extend(Eigen::Vector2d(goal.p_WG().head<2>()));
   bounds = {bounds.min().array() - kMarginM, bounds.max().array() + kMarginM};
   const double cell_m = std::max(kMinCellM, bounds.sizes().maxCoeff() / kMaxCells);
-  const auto clearance_m = [&](const Eigen::Vector2d& p_NE_m) {
-    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-    X_WB.translation() = Eigen::Vector3d(p_NE_m.x(), p_NE_m.y(), goal.p_WG().z());
-    const Proximity proximity = world.query(X_WB, kReachM, kAtStartS);
-    return proximity.collided ? 0.0 : std::min(proximity.obstacle_clearance_m, kReachM);
-  };
+  DiscClearance disc(scene, {vehicle_radius_m, kHalfThicknessM, -goal.p_WG().z()}, bounds, kReachM);
+  const auto clearance_m = [&](const Eigen::Vector2d& p_NE_m) { return disc.at(p_NE_m); };
   return shortest_path_m(start_W.head<2>(), {goal.p_WG().head<2>(), goal.radius_m}, bounds, cell_m, clearance_m);
 }
 
