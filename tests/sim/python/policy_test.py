@@ -26,7 +26,7 @@ RIG = {"rig.cameras": [{"role": "front", "width": 32, "height": 24, "fov": 90, "
                         "yaw": 90},
                        {"role": "down", "width": 120, "height": 120, "fov": 50, "rate": 50, "channel": "grey",
                         "down": 0.2, "pitch": -90}]}
-SETTINGS = {**SHORT, **RIG, "rig.sensor": {}, "drawing.renderer": "tiles", "avoidance": {"module": "go_to_goal"}}
+SETTINGS = {**SHORT, **RIG, "duration": 2, "rig.sensor": {}, "drawing.renderer": "tiles", "avoidance": {"module": "go_to_goal"}}
 IMAGES = [{"camera": "front", "channel": "grey", "mean": 127.5},
           {"camera": "side", "channel": "color", "mean": 50, "scale": 0.01}]
 
@@ -52,7 +52,7 @@ def network():
 
 def inputs_of(images, state):
     """Returns images as onnx_policy prepares them with the configuration IMAGES."""
-    front = (images["front"].astype(np.float32) - 127.5) / 255.0
+    front = (images["front"].reshape(24, 32).astype(np.float32) - 127.5) / 255.0  # an Env's images have a channel axis
     side = (images["side"].astype(np.float32) - 50.0) * 0.01
     return front[None, None], np.ascontiguousarray(side.transpose(2, 0, 1)[None]), state[None]
 
