@@ -15,7 +15,7 @@
 #include "scripts/bench.d/drawn_scenes.h"
 #include "sim/render/renderer.h"
 
-// Color images of 400 x 400 px of the city's boxes: MuJoCo with OSMesa [Todorov2012] next to Hedgehop with OSMesa and
+// Color images of 400 x 400 px of the city's boxes: MuJoCo with OSMesa next to Hedgehop with OSMesa and
 // with tiles, in street views. Each draws its own textures: MuJoCo a checkered one of 512 px, one light and no shadows.
 namespace hedgehop::sim {
 namespace {
@@ -33,7 +33,7 @@ Eigen::Matrix3d R_MW() { return Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal(); }
 
 std::string element(const scenes::Solid& solid) {
   const Eigen::Vector3d p_M = R_MW() * solid.X_WS.translation();
-  const Eigen::Quaterniond q_MS(R_MW() * solid.X_WS.linear());
+  const Eigen::Quaterniond attitude(R_MW() * solid.X_WS.linear());
   const Eigen::Vector3d& half_m = solid.half_extents_m;
   const bool box = solid.shape == scenes::Solid::Shape::box;
   if (!box && solid.shape != scenes::Solid::Shape::cylinder)
@@ -41,7 +41,8 @@ std::string element(const scenes::Solid& solid) {
   const std::string size =
       box ? fmt::format("{} {} {}", half_m.x(), half_m.y(), half_m.z()) : fmt::format("{} {}", half_m.x(), half_m.z());
   return fmt::format("<geom type='{}' size='{}' pos='{} {} {}' quat='{} {} {} {}' material='facade'/>\n",
-                     box ? "box" : "cylinder", size, p_M.x(), p_M.y(), p_M.z(), q_MS.w(), q_MS.x(), q_MS.y(), q_MS.z());
+                     box ? "box" : "cylinder", size, p_M.x(), p_M.y(), p_M.z(), attitude.w(), attitude.x(),
+                     attitude.y(), attitude.z());
 }
 
 std::string model_text(const scenes::Scene& scene) {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "dynamics/rigid_body.h"
+#include "sim/collision/disc_clearance.h"
 #include "sim/collision/proximity.h"
-#include "sim/verdict/disc_clearance.h"
 #include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {

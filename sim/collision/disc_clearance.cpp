@@ -1,4 +1,4 @@
-#include "sim/verdict/disc_clearance.h"
+#include "sim/collision/disc_clearance.h"
 
 #include <algorithm>
 #include <cmath>
