@@ -7,7 +7,6 @@ namespace hedgehop::sim {
 namespace {
 
 constexpr double kCellM = 4.0;
-using Shape = scenes::Solid::Shape;
 
 }  // namespace
 
@@ -16,16 +15,17 @@ std::optional<DiscClearance::Upright> DiscClearance::upright(const scenes::Solid
   const Eigen::Matrix3d R_WS = solid.X_WS.linear();
   const bool is_upright =
       std::max({std::abs(R_WS(0, 2)), std::abs(R_WS(1, 2)), std::abs(R_WS(2, 0)), std::abs(R_WS(2, 1))}) < kLevel;
-  if (solid.shape != Shape::sphere && (!is_upright || (solid.shape != Shape::box && solid.shape != Shape::cylinder)))
+  if (solid.shape != scenes::Solid::Shape::sphere &&
+      (!is_upright || (solid.shape != scenes::Solid::Shape::box && solid.shape != scenes::Solid::Shape::cylinder)))
     return {};
   Upright found{.center_NE_m = solid.X_WS.translation().head<2>()};
   const double apart_m = std::abs(solid.X_WS.translation().z() + disc.altitude_m);
   double half_height_m = disc.half_thickness_m;
-  if (solid.shape == Shape::sphere) {
+  if (solid.shape == scenes::Solid::Shape::sphere) {
     found.rounding_m = solid.half_extents_m.x();
   } else {
     half_height_m += solid.half_extents_m.z();
-    if (solid.shape == Shape::cylinder) {
+    if (solid.shape == scenes::Solid::Shape::cylinder) {
       found.footprint_radius_m = solid.half_extents_m.x();
     } else {
       found.R_SW = R_WS.topLeftCorner<2, 2>().transpose();
@@ -63,7 +63,7 @@ DiscClearance::DiscClearance(const scenes::Scene& scene, const LevelDisc& disc, 
     }
   }
   if (others.solids.empty() && others.movers.empty()) return;
-  const dynamics::HullPart hull{.shape = dynamics::HullPart::Shape::cylinder,
+  const dynamics::HullPart hull{.shape = dynamics::HullPart::scenes::Solid::Shape::cylinder,
                                 .half_extents_m = {disc.radius_m, disc.radius_m, disc.half_thickness_m}};
   others_.emplace(others, std::vector{hull});
 }
