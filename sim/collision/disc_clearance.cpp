@@ -63,7 +63,7 @@ DiscClearance::DiscClearance(const scenes::Scene& scene, const LevelDisc& disc, 
     }
   }
   if (others.solids.empty() && others.movers.empty()) return;
-  const dynamics::HullPart hull{.shape = dynamics::HullPart::scenes::Solid::Shape::cylinder,
+  const dynamics::HullPart hull{.shape = dynamics::HullPart::Shape::cylinder,
                                 .half_extents_m = {disc.radius_m, disc.radius_m, disc.half_thickness_m}};
   others_.emplace(others, std::vector{hull});
 }

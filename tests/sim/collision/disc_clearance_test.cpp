@@ -33,7 +33,7 @@ scenes::Solid anywhere(SolidShape shape, double tilt_rad, RandomStream& random) 
 void expect_clearance_of_bullet(const scenes::Scene& scene, RandomStream& random) {
   const LevelDisc disc{.radius_m = 0.8, .half_thickness_m = 0.05, .altitude_m = 10.0};
   DiscClearance clearance(scene, disc, kPlan, kDiscReachM);
-  CollisionWorld world(scene, {{.shape = dynamics::HullPart::SolidShape::cylinder,
+  CollisionWorld world(scene, {{.shape = dynamics::HullPart::Shape::cylinder,
                                 .half_extents_m = {disc.radius_m, disc.radius_m, disc.half_thickness_m}}});
   for (int k = 0; k < 300; ++k) {
     const Eigen::Vector2d p(-30.0 + 60.0 * random.uniform(), -25.0 + 50.0 * random.uniform());
