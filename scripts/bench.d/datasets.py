@@ -108,7 +108,8 @@ def past_sphere(root, hedgehop):
 
     def settings(name):
         scene = f"scene={{type: open, imports: [{{file: {json.dumps(str(folder / name))}, north: 15, east: 13, altitude: 8}}]}}"
-        return [word for text in (scene, CAMERA_PAST, "start.altitude=8", "goal.altitude=8", "checks=[]") for word in ("--set", text)]
+        texts = (scene, CAMERA_PAST, "velocimeter.enabled=false", "start.altitude=8", "goal.altitude=8", "checks=[]")
+        return [word for text in texts for word in ("--set", text)]
 
     imported = {}
     for name, content in (("sphere.glb", glb(*sphere)), ("sphere.obj", obj(*sphere))):
