@@ -42,8 +42,8 @@ class Env(_Base):
     Observation  one image per camera, by role, and "state": position of the goal forward, right and down of the vehicle (m),
                  velocity in B (m/s), roll and pitch (rad), yaw rate (rad/s), height above ground (m). With actions of rates
                  or motors also "rates": roll, pitch and yaw rate (rad/s). All are estimates. Images are rows x columns x
-                 channels: uint8, or depth in m as float32 in 0 .. `depth_far_m`, which also stands for farther, unknown and
-                 no surface. If a camera loses an image, the previous one of the flight remains; before the first, an image is
+                 channels: uint8, or depth in m as float32 in 0 .. `depth_far_m`, the value of farther, unknown and missing
+                 surfaces. If a camera loses an image, the previous one of the flight remains; before the first, an image is
                  black, and its depth far.
     info         "clearance_m" and "p_WB_true_m" (truth, for evaluation only); at the end "result", as in result.json.
 
