@@ -1,7 +1,7 @@
 // Reads an MCAP file with both readers of @mcap/core and prints it as JSON. Throws if they differ, a CRC is wrong, or a
 // message does not decode by its own schema: node read_mcap.mjs FILE
 import {readFileSync} from 'node:fs';
-import {crc32} from 'node:zlib';
+import {crc32} from '@foxglove/crc';
 import {McapIndexedReader, McapStreamReader} from '@mcap/core';
 import {loadDecompressHandlers} from '@mcap/support';
 import {decoder} from './decoders.mjs';
