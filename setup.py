@@ -8,6 +8,7 @@ import subprocess
 import sys
 import sysconfig
 
+import setuptools
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
@@ -16,6 +17,12 @@ RELEASE = ROOT / "build/release"
 SYSTEM_PYTHON = pathlib.Path("/usr/bin/python3")  # the interpreter of build/release
 VERSION = f"{sys.version_info.major}.{sys.version_info.minor}"
 NATIVE = f"_native{sysconfig.get_config_var('EXT_SUFFIX')}"
+
+
+# An older one ignores [project] of pyproject.toml and installs an empty package named UNKNOWN.
+if int(setuptools.__version__.split(".")[0]) < 61:
+    raise SystemExit(f"setuptools 61 or later is required, {sys.executable} has {setuptools.__version__}; update it: "
+                     f"{sys.executable} -m pip install --upgrade setuptools")
 
 
 def cmake(*arguments):
