@@ -124,6 +124,8 @@ void print_identified_json(const Identified& all, const IdentifyOptions& options
 }  // namespace
 
 int identify(const IdentifyOptions& options) {
+  if (options.input.empty())
+    throw InputError("identify: expected --input with a control, or --log with recorded flights");
   if (!(options.to_radps > options.from_radps)) throw InputError("--to must be above --from");
   constexpr double kPeriods = 4.0;
   const double shortest_s = kPeriods * 2.0 * std::numbers::pi / options.from_radps;

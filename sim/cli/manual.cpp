@@ -63,6 +63,11 @@ constexpr Example kExamples[] = {
     {"step", "hedgehop step configs/vehicles/xcell_60.yaml --input longitudinal --size 1deg --plot step.html", ""},
     {"step", "hedgehop step configs/vehicles/s900.yaml --input roll --size 0.5Nm --shape doublet --width 0.3", ""},
     {"identify", "hedgehop identify configs/vehicles/xcell_60.yaml --input lateral --plot lateral.html", ""},
+    {"identify",
+     "hedgehop identify configs/vehicles/hummingbird.yaml --log configs/logs/hummingbird_example.csv "
+     "--fit rotor.drag=0:1e-3",
+     "a fit to a recorded flight"},
+    {"compare-log", "hedgehop compare-log configs/vehicles/hummingbird.yaml configs/logs/hummingbird_example.csv", ""},
     {"schema", "hedgehop schema > scenario.schema.json", ""},
     {"manual", "hedgehop manual man | man -l -", ""},
 };

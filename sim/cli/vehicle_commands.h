@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/cli/log_commands.h"
+
 namespace CLI {
 class App;
 }
@@ -65,6 +67,8 @@ struct VehicleOptions {
   LinearizeOptions linearize;
   StepOptions step;
   IdentifyOptions identify;
+  IdentifyLogOptions identify_log;
+  CompareLogOptions compare_log;
 };
 /// Declares these commands. Parsing stores the call of the selected command in `chosen`.
 void declare_vehicle_commands(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles);

@@ -21,11 +21,10 @@ void add_airspeed(CLI::App& command, double& speed_mps) {
   command.add_option("--speed", speed_mps, "airspeed, m/s; default 0")->transform(number())->type_name("V");
 }
 
-void add_input(CLI::App& command, std::string& input) {
-  command
+CLI::Option* add_input(CLI::App& command, std::string& input) {
+  return command
       .add_option("--input", input,
                   "control: collective, lateral, longitudinal or tail; of a multicopter thrust, roll, pitch or yaw")
-      ->required()
       ->type_name("NAME");
 }
 
@@ -66,7 +65,7 @@ void declare_step(CLI::App& app, std::function<int()>& chosen, StepOptions& opti
       "step",
       "print or plot a vehicle's response to a step or doublet of one control, next to that of its linear model");
   add_vehicle(*command, options.vehicle);
-  add_input(*command, options.input);
+  add_input(*command, options.input)->required();
   command
       ->add_option("--size", options.size, "deviation from the trim with its unit, such as 1deg, 0.02rad, 0.5N, 0.01Nm")
       ->required()
@@ -84,11 +83,16 @@ void declare_step(CLI::App& app, std::function<int()>& chosen, StepOptions& opti
   command->callback([&] { chosen = [&options] { return step(options); }; });
 }
 
-void declare_identify(CLI::App& app, std::function<int()>& chosen, IdentifyOptions& options) {
-  CLI::App* const command = app.add_subcommand(
-      "identify", "identify a vehicle's frequency response from frequency sweeps, next to that of its linear model");
+void declare_identify(CLI::App& app, std::function<int()>& chosen, VehicleOptions& vehicles) {
+  IdentifyOptions& options = vehicles.identify;
+  CLI::App* const command = app.add_subcommand("identify",
+                                               "identify a vehicle's frequency response from simulated sweeps "
+                                               "(--input), or fit its parameters to recorded flights "
+                                               "(--log)");
   add_vehicle(*command, options.vehicle);
-  add_input(*command, options.input);
+  CLI::Option* const input = add_input(*command, options.input);
+  add_log_fit(*command, vehicles.identify_log);
+  command->get_option("--log")->excludes(input);
   command->add_option("--output", options.output, "state, such as p; default the main one of the control")
       ->type_name("STATE");
   command
@@ -106,7 +110,14 @@ void declare_identify(CLI::App& app, std::function<int()>& chosen, IdentifyOptio
   add_formats(*command, options.json, options.csv);
   command->add_option("--plot", options.plot, "also write a page with gain, phase and coherence")
       ->type_name("FILE.html");
-  command->callback([&] { chosen = [&options] { return identify(options); }; });
+  command->callback([&] {
+    chosen = [&vehicles] {
+      if (vehicles.identify_log.logs.empty()) return identify(vehicles.identify);
+      vehicles.identify_log.vehicle = vehicles.identify.vehicle;
+      vehicles.identify_log.json = vehicles.identify.json;
+      return identify_log(vehicles.identify_log);
+    };
+  });
 }
 
 }  // namespace
@@ -115,7 +126,8 @@ void declare_vehicle_commands(CLI::App& app, std::function<int()>& chosen, Vehic
   declare_trim(app, chosen, vehicles);
   declare_linearize(app, chosen, vehicles.linearize);
   declare_step(app, chosen, vehicles.step);
-  declare_identify(app, chosen, vehicles.identify);
+  declare_identify(app, chosen, vehicles);
+  declare_compare_log(app, chosen, vehicles.compare_log);
 }
 
 }  // namespace hedgehop::sim::cli
