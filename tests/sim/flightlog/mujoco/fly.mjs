@@ -1,15 +1,14 @@
 // Writes a flight of one rigid body by MuJoCo as a log of compare-log, world with z up, 100 Hz, 20.1 s.
 //
-// usage: node mujoco_flight.mjs FOLDER_WITH_NODE_MODULES CASE LOG.csv    CASE: free, spin, flip, drag
+// usage: node fly.mjs CASE LOG.csv    CASE: free, spin, flip, drag
 //
 // The drag is a force of the user: -|v| C v along the body axes. MuJoCo holds such forces constant over a step, so each step
 // is repeated with the force of its middle (midpoint method).
 import { writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { pathToFileURL } from 'node:url';
+import loadMujoco from '@mujoco/mujoco';
 
-const [folder, name, file] = process.argv.slice(2);
-const mujoco = await (await import(pathToFileURL(createRequire(`${folder}/`).resolve('@mujoco/mujoco')))).default();
+const [name, file] = process.argv.slice(2);
+const mujoco = await loadMujoco();
 
 const cases = {
   free: { velocity: [3, -2, 4], rates: [1.0, 0.6, -2.0], drag: [0, 0, 0] },
