@@ -60,13 +60,14 @@ void add_log_fit(CLI::App& command, IdentifyLogOptions& options) {
                                ->allow_extra_args(false);
   log->type_name("LOG.csv")->group(group);
   command
-      .add_option(
-          "--fit", options.fit,
-          "number of the vehicle or, with the prefix columns., of the column map, and its bounds; may be repeated")
+      .add_option("--fit", options.fit,
+                  "number of the vehicle or, with the prefix columns., of the column map, and its bounds as "
+                  "NAME=LOW:HIGH; may be "
+                  "repeated")
       ->take_all()
       ->allow_extra_args(false)
       ->needs(log)
-      ->type_name("NAME=LOW:HIGH")
+      ->type_name("NAME=BOUNDS")
       ->group(group);
   add_columns(command, options.columns);
   command.get_option("--columns")->needs(log)->group(group);
