@@ -221,7 +221,7 @@ std::optional<Episode::Ending> Episode::ending_of_motion() const {
     return Ending{Outcome::fault,
                   fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_))};
   }
-  if (proximity_.collided) {
+  if (collides()) {
     const bool ground = proximity_.ground_clearance_m <= 0.0;
     const std::string what = ground || !proximity_.nearest_solid
                                  ? "the ground"
@@ -229,6 +229,11 @@ std::optional<Episode::Ending> Episode::ending_of_motion() const {
     return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
   }
   return std::nullopt;
+}
+
+bool Episode::collides() const {
+  if (scenario_.collision_of == CollisionOf::hull) return proximity_.collided;
+  return environment_.collision.height_above_surface(aircraft_.body().p_WB, ticks_.t_s(tick_)) <= 0.0;
 }
 
 /// Returns the end of the flight on this tick, if any.

@@ -89,6 +89,8 @@ class Episode {
   void run_autopilot();
   std::optional<Ending> ending() const;
   std::optional<Ending> ending_of_motion() const;
+  /// Whether the vehicle collides now, by the scenario's `collision_of`.
+  bool collides() const;
   void end(Ending reason);
   void move();
   std::optional<double> goal_distance_m() const;

@@ -94,6 +94,8 @@ void describe(Visitor& v, fields::ConfigOf<MaxTiltCheck> auto& c) {
 /// The judge's own figures, docs/metrics.md; those that a flight lacks fail their checks.
 inline constexpr auto kJudgesMetrics = std::to_array<std::string_view>({"success",
                                                                         "collision",
+                                                                        "center_collision",
+                                                                        "hull_collision",
                                                                         "mission_progress",
                                                                         "goal_velocity",
                                                                         "shortest_path",

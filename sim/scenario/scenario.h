@@ -151,6 +151,12 @@ void describe(Visitor& v, fields::ConfigOf<FilmConfig> auto& c) {
   v("width", c.width_px, {.unit = "px", .at_least = 64, .at_most = 4096, .meaning = "width of the video"});
 }
 
+/// The part of the vehicle whose contact with an obstacle or the ground is a collision and ends the flight.
+enum class CollisionOf {
+  hull,
+  center  ///< the origin of B, as papers count that draw a path between walls; the hull passes through obstacles
+};
+
 /// All inputs of one flight.
 struct Scenario {
   std::string name;
@@ -180,6 +186,7 @@ struct Scenario {
   std::vector<FailureConfig> failures;
   std::vector<CheckConfig> checks;
   bool may_collide = false;  ///< if false, `no_collision` is always checked
+  CollisionOf collision_of = CollisionOf::hull;
   FilmConfig film;
   std::optional<OriginConfig> origin;
 
@@ -229,6 +236,10 @@ void describe(Visitor& v, fields::ConfigOf<Scenario> auto& c) {
   v("failures", c.failures, {.meaning = "failures in flight: of sensors, cameras, motors, servos or the command link"});
   v("checks", c.checks, {.selector = "check", .meaning = "checks of the flight, in addition to no_collision"});
   v("may_collide", c.may_collide, {.meaning = "whether collisions are allowed; if true, no_collision is not checked"});
+  v("collision_of", c.collision_of,
+    {.choices = {"hull", "center"},
+     .meaning = "part of the vehicle whose contact ends the flight as a collision; center: the center alone, while the "
+                "hull passes through obstacles and its contacts are counted"});
   v("film", c.film, {.meaning = "video of the flight"});
   v("origin", c.origin, {.meaning = "origin of a counterexample; does not affect the flight"});
 }

@@ -99,8 +99,9 @@ CheckResult evaluate(const ReachedGoalCheck& check, const Evidence& e) {
 CheckResult evaluate(const NoCollisionCheck&, const Evidence& e) {
   const FlightResult& result = e.flight.result;
   const ClosestApproach& nearest = closer(result.closest_obstacle, result.closest_ground);
+  const bool hull_passes_through = e.scenario.collision_of == CollisionOf::center && nearest.distance_m <= 0.0;
   return {std::string{NoCollisionCheck::kName},
-          result.outcome != Outcome::collided,
+          result.outcome != Outcome::collided && !hull_passes_through,
           known_m(nearest),
           0.0,
           "m",

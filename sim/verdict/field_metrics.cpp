@@ -126,6 +126,10 @@ std::vector<MetricValue> field_metrics(const Scenario& scenario, const Flight& f
   const Outcome success = scenario.goal ? Outcome::reached : Outcome::timeout;
   std::vector<MetricValue> metrics{{"success", result.outcome == success ? 1.0 : 0.0, ""},
                                    {"collision", result.outcome == Outcome::collided ? 1.0 : 0.0, ""}};
+  if (scenario.collision_of == CollisionOf::center) {
+    metrics.push_back({"center_collision", metrics.back().value, ""});
+    metrics.push_back({"hull_collision", closest_approach(result).distance_m <= 0.0 ? 1.0 : 0.0, ""});
+  }
   if (rows.size() < 3) return metrics;
   if (scenario.goal && result.goal_distance_m) {
     const GoalConfig& goal = *scenario.goal;

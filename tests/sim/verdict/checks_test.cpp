@@ -111,6 +111,16 @@ TEST(Checks, CollisionIsCheckedOnceUnlessTheScenarioMayCollide) {
   EXPECT_EQ(names({MaxSpeedCheck{.at_most_mps = 3.0}}), "max_speed ");
 }
 
+TEST(Checks, AHullThatPassesThroughAnObstacleFailsNoCollision) {
+  StraightFlight f;
+  f.scenario.collision_of = CollisionOf::center;
+  EXPECT_TRUE(f.evaluate(NoCollisionCheck{}).passed);
+  f.flight.result.closest_obstacle.distance_m = -0.2;  // the flight went on to its goal
+  const CheckResult result = f.evaluate(NoCollisionCheck{});
+  EXPECT_FALSE(result.passed);
+  EXPECT_EQ(result.value, -0.2);
+}
+
 TEST(Checks, NoTruthUsedCountsTheEntriesOfTheResult) {
   StraightFlight f;
   EXPECT_TRUE(f.evaluate(NoTruthUsedCheck{}).passed);

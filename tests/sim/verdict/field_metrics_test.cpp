@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace hedgehop::sim {
 namespace {
@@ -64,6 +65,22 @@ TEST(FieldMetrics, HalfTheDistanceIsHalfTheMission) {
   EXPECT_NEAR(*value(metrics, "mission_progress"), 0.5, 1e-12);
   EXPECT_NEAR(*value(metrics, "goal_velocity"), 2.5, 1e-12);
   EXPECT_FALSE(value(metrics, "path_excess"));
+}
+
+TEST(FieldMetrics, CenterAndHullAreCountedApartIfTheCenterCollides) {
+  Scenario scenario = with_goal();
+  const auto counts = [&scenario](Outcome outcome, double clearance_m) {
+    Flight flight = flight_north([](double t_s) { return 5.0 * t_s; }, outcome);
+    flight.result.closest_obstacle.distance_m = clearance_m;
+    flight.result.closest_ground.distance_m = 9.0;
+    const auto metrics = field_metrics(scenario, flight, empty_scene(), 0.8);
+    return std::pair(value(metrics, "center_collision"), value(metrics, "hull_collision"));
+  };
+  EXPECT_EQ(counts(Outcome::reached, 1.0), std::pair(std::optional<double>(), std::optional<double>()));
+  scenario.collision_of = CollisionOf::center;
+  EXPECT_EQ(counts(Outcome::reached, 1.0), std::pair(std::optional(0.0), std::optional(0.0)));
+  EXPECT_EQ(counts(Outcome::reached, -0.2), std::pair(std::optional(0.0), std::optional(1.0)));
+  EXPECT_EQ(counts(Outcome::collided, -0.8), std::pair(std::optional(1.0), std::optional(1.0)));
 }
 
 TEST(FieldMetrics, StraightFlightToTheGoalHasNoExcess) {
