@@ -9,6 +9,7 @@
 #include "avoidance/heading.h"
 #include "avoidance/stereo/passed_obstacles.h"
 #include "avoidance/stereo_corridor/corridor_search.h"
+#include "avoidance/stereo_corridor/flight_path.h"
 #include "avoidance/stereo_corridor/goal_seeking.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
 #include "sim/fields/bounds.h"
@@ -33,6 +34,8 @@ class StereoCorridor final : public Module {
     if (config.law == Law::published) config.additions = {false, false, false};
     return config;
   }
+
+  bool follows_path() const { return config_.law == Law::published && config_.follow_path; }
 
   Needs do_needs() const override {
     Needs needs = DisparitySource::needs(config_.depth, DisparitySource::Grey::needed);
@@ -62,6 +65,7 @@ class StereoCorridor final : public Module {
     hover_s_ = 0.0;
     turn_ = 1.0;
     turn_back_ = {};
+    path_ = {};
   }
 
   Decision do_update(const Observation& observation) override {
@@ -76,10 +80,12 @@ class StereoCorridor final : public Module {
     R_WC_ = X_WC.linear();
     passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
 
-    const Eigen::Vector3d p_CG_C = X_WC.inverse() * observation.goal.p_WG;
+    const Eigen::Vector3d aim_W =
+        follows_path() ? path_.ahead_W(navigation.p_WB_est, observation.goal.p_WG) : observation.goal.p_WG;
+    const Eigen::Vector3d aim_C = X_WC.inverse() * aim_W;
     const bool arrives = arrives_at(observation.goal.p_WG - navigation.p_WB_est);
-    const bool turns_back = config_.additions.goal_first && !arrives && turn_back_.update(p_CG_C, navigation.p_WB_est);
-    const int tests = aim(navigation, p_CG_C, turns_back);
+    const bool turns_back = config_.additions.goal_first && !arrives && turn_back_.update(aim_C, navigation.p_WB_est);
+    const int tests = aim(navigation, aim_C, turns_back);
     count(observation.t_ns, tests);
 
     Decision decision;
@@ -133,8 +139,8 @@ class StereoCorridor final : public Module {
   }
 
   /// Chooses the next target or, if there is none, the side to turn to: that of the last target or of a passed goal.
-  /// @return number of corridor tests.
-  int aim(const NavigationState& navigation, const Eigen::Vector3d& p_CG_C, bool turns_back) {
+  /// @param aim_C  the goal, or the point ahead on the path. @return number of corridor tests.
+  int aim(const NavigationState& navigation, const Eigen::Vector3d& aim_C, bool turns_back) {
     const std::optional<Target> before = target_;
     const std::optional<cv::Point> followed =
         tracker_.follow(before ? std::optional(before->pixel) : std::nullopt, source_->grey());
@@ -145,7 +151,9 @@ class StereoCorridor final : public Module {
     if (side) turn_ = *side;
     if (turns_back) return 0;
     if (config_.additions.goal_first) {
-      target_ = choose_goal_first(images, p_CG_C, v_WB_C, followed);
+      target_ = choose_goal_first(images, aim_C, v_WB_C, followed);
+    } else if (follows_path()) {
+      target_ = keep_path(images, aim_C, followed);
     } else {
       // A hovering vehicle has no direction of flight; the paper starts with "the way straight on".
       target_ = images.join(is_moving(v_WB_C) ? v_WB_C : Eigen::Vector3d::UnitZ(), followed);
@@ -224,6 +232,7 @@ class StereoCorridor final : public Module {
   cv::Mat smooth_, matched16_;
   std::optional<Target> target_;
   TurnBack turn_back_;
+  FlightPath path_;
   std::optional<Decision> last_;
   int64_t first_t_ns_ = -1, last_t_ns_ = -1;
   int64_t images_ = 0, tracked_ = 0;

@@ -30,6 +30,7 @@ struct StereoCorridorConfig {
       "flies through corridors that are free in the depth image of a stereo pair";
 
   Law law = Law::modified;
+  bool follow_path = false;
   Additions additions;
   Unknown unknown = Unknown::free;
   stereo::DisparitySource::From depth = stereo::DisparitySource::From::stereo;
@@ -49,6 +50,9 @@ void describe(Visitor& v, fields::ConfigOf<StereoCorridorConfig> auto& c) {
     {.choices = {"published", "modified"},
      .meaning = "published: keep the direction of flight while it is free; modified: with the additions goal_first, "
                 "memory and sky"});
+  v("follow_path", c.follow_path,
+    {.meaning = "published: fly along the straight path from the start to the goal while its corridor is free, as the "
+                "paper's aircraft; otherwise the flight has no path, only the direction in which it flies"});
   v("goal_first", c.additions.goal_first,
     {.meaning =
          "modified: fly to the goal if its direction is free, decelerate near it, and turn back to a missed goal"});
