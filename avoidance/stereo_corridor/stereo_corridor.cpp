@@ -11,6 +11,7 @@
 #include "avoidance/stereo_corridor/corridor_search.h"
 #include "avoidance/stereo_corridor/flight_path.h"
 #include "avoidance/stereo_corridor/goal_seeking.h"
+#include "avoidance/stereo_corridor/stopping_speed.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
@@ -57,6 +58,7 @@ class StereoCorridor final : public Module {
     if (!config_.additions.memory) passed.radius_m = 0.0;
     passed_.emplace(passed);
     acceleration_mps2_ = setup.limits.acceleration_mps2;
+    hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - source_->X_BC().translation().x());
     target_.reset();
     last_.reset();
     first_t_ns_ = last_t_ns_ = -1;
@@ -174,7 +176,10 @@ class StereoCorridor final : public Module {
   double speed_mps(const Observation& observation) const {
     if (!config_.additions.goal_first) return config_.speed_mps;
     const double goal_m = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>().norm();
-    return approach_speed_mps(config_.speed_mps, goal_m, acceleration_mps2_);
+    const Eigen::Vector3d v_WB_C = source_->X_BC().linear().transpose() * observation.navigation.v_WB_B_est;
+    return std::min(approach_speed_mps(config_.speed_mps, goal_m, acceleration_mps2_),
+                    stopping_speed_mps(pyramid_, source_->geometry(), config_.corridor.radius_m, v_WB_C,
+                                       acceleration_mps2_, hull_ahead_m_));
   }
 
   /// Flies in the direction of view; [Andert2007] eq. (18) for the target in B.
@@ -227,6 +232,7 @@ class StereoCorridor final : public Module {
   TargetTracker tracker_;
   std::optional<stereo::PassedObstacles> passed_;
   double acceleration_mps2_ = 0.0;                      ///< maximum
+  double hull_ahead_m_ = 0.0;                           ///< extent of the hull ahead of the camera
   Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::stereo::DepthPyramid pyramid_;
   cv::Mat smooth_, matched16_;

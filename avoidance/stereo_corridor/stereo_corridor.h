@@ -14,7 +14,7 @@ namespace hedgehop::avoidance::stereo_corridor {
 
 /// Additions of the modified law. Each can be switched off to measure its effect.
 struct Additions {
-  bool goal_first = true;  ///< goal_seeking.h
+  bool goal_first = true;  ///< goal_seeking.h, stopping_speed.h
   bool memory = true;      ///< stereo::PassedObstacles
   bool sky = true;         ///< vision::stereo::SkyAmong::all, in a smoothed image
 };
@@ -54,8 +54,8 @@ void describe(Visitor& v, fields::ConfigOf<StereoCorridorConfig> auto& c) {
     {.meaning = "published: fly along the straight path from the start to the goal while its corridor is free, as the "
                 "paper's aircraft; otherwise the flight has no path, only the direction in which it flies"});
   v("goal_first", c.additions.goal_first,
-    {.meaning =
-         "modified: fly to the goal if its direction is free, decelerate near it, and turn back to a missed goal"});
+    {.meaning = "modified: fly to the goal if its direction is free, decelerate near it and near obstacles ahead, and "
+                "turn back to a missed goal"});
   v("memory", c.additions.memory, {.meaning = "modified: remember obstacles that have left the image"});
   v("sky", c.additions.sky, {.meaning = "modified: search for sky also among matched pixels, in a smoothed image"});
   v("unknown", c.unknown,
