@@ -1,7 +1,9 @@
 #include "scenes/additions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "scenes/mesh/bodies.h"
@@ -19,7 +21,24 @@ using Eigen::Vector3d;
 
 /// Pose of the box's frame K: x along its heading, y across, z down; origin at the center of its bottom face.
 Eigen::Isometry3d X_WK(const BoxConfig& c) {
-  return Eigen::Translation3d(c.north_m, c.east_m, 0.0) * Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ());
+  const Eigen::Translation3d foot_W(c.north_m, c.east_m, 0.0 - c.altitude_m);
+  if (c.quaternion.empty()) return foot_W * Eigen::AngleAxisd(c.heading_rad, Vector3d::UnitZ());
+  const Eigen::Quaterniond q_WK(c.quaternion[0], c.quaternion[1], c.quaternion[2], c.quaternion[3]);
+  const Eigen::Translation3d center_K(0.0, 0.0, -0.5 * c.height_m);
+  return foot_W * center_K * q_WK.normalized() * center_K.inverse();
+}
+
+void require_box(const BoxConfig& c, const std::string& path) {
+  constexpr double kMaxError = 0.01;
+  fields::require_bounds(c, path);
+  if (c.quaternion.empty()) return;
+  const std::string key = path + ".quaternion: ";
+  if (c.quaternion.size() != 4)
+    throw std::invalid_argument(key + std::to_string(c.quaternion.size()) + " numbers; valid: 4 (w, x, y, z)");
+  const double length = Eigen::Map<const Eigen::Vector4d>(c.quaternion.data()).norm();
+  if (!(std::abs(length - 1.0) <= kMaxError))
+    throw std::invalid_argument(key + "its length is " + std::to_string(length) + "; valid: 1");
+  if (c.heading_rad != 0.0) throw std::invalid_argument(key + "a box has a heading or a quaternion, not both");
 }
 
 }  // namespace
@@ -39,11 +58,12 @@ void add_boxes(const std::vector<BoxConfig>& boxes, uint64_t seed, Scene& scene)
   mesh::MeshBuilder builder("opaque");
   for (size_t k = 0; k < boxes.size(); ++k) {
     const BoxConfig& c = boxes[k];
-    fields::require_bounds(c, "boxes." + std::to_string(k));
+    require_box(c, "boxes." + std::to_string(k));
     const Eigen::AlignedBox3d box_K(Vector3d(-0.5 * c.length_m, -0.5 * c.width_m, -c.height_m),
                                     Vector3d(0.5 * c.length_m, 0.5 * c.width_m, 0.0));
     builder.begin_instance(c.name, SemanticClass::building);
-    builder.begin_chunk(c.heading_rad == 0.0);  // a rotated box does not fill the bounds of its chunk
+    const bool stands = c.altitude_m == 0.0 && c.quaternion.empty();
+    builder.begin_chunk(stands && c.heading_rad == 0.0);  // a rotated box does not fill the bounds of its chunk
     mesh::add_box(box_K, X_WK(c), brick, builder);
     scene.solids.push_back(mesh::solid_of(c.name, box_K, X_WK(c)));
   }
@@ -108,12 +128,27 @@ SemanticClass class_of(Shape shape) {
   return shape == Shape::tree ? SemanticClass::tree : SemanticClass::pole;
 }
 
+/// Returns a mover with the table of its motion.
+MoverConfig loaded(const std::vector<MoverConfig>& movers, size_t k) {
+  MoverConfig mover = movers[k];
+  try {
+    load_motion(mover.motion);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("movers." + std::to_string(k) + "." + fault.what());
+  }
+  return mover;
+}
+
 Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
   mesh::MeshBuilder mesh("opaque");
   Mover mover{.name = c.name, .mesh = {}, .solids = {}, .motion = c.motion};
   const auto add_standing = [&](const mesh::Post& post, int sides) {
     mesh::add_post(post, sides, images.signal(), mesh);
     mover.solids.push_back(mesh::solid_of(c.name, post));
+  };
+
+  const auto add_bottom = [&](const Eigen::AlignedBox3d& box_M) {
+    mesh.add_tiled(mesh::bottom_panel(box_M), kSignalTileM, Eigen::Vector2d::Zero(), images.signal().texture);
   };
 
   mesh.begin_instance(c.name, class_of(c.shape));
@@ -134,8 +169,13 @@ Mover make_mover(const MoverConfig& c, uint64_t seed, MoverImages& images) {
     const Eigen::AlignedBox3d box_M(Vector3d(-c.radius_m, -c.radius_m, -c.height_m),
                                     Vector3d(c.radius_m, c.radius_m, 0.0));
     mesh::add_box(box_M, Eigen::Isometry3d::Identity(), images.signal(), mesh);
-    mesh.add_tiled(mesh::bottom_panel(box_M), kSignalTileM, Eigen::Vector2d::Zero(),
-                   images.signal().texture);  // visible if the box rises
+    add_bottom(box_M);  // visible if the box rises
+    mover.solids.push_back(mesh::solid_of(c.name, box_M));
+  }
+  if (c.shape == Shape::cuboid) {
+    const Eigen::AlignedBox3d box_M(-0.5 * c.size_m, 0.5 * c.size_m);
+    mesh::add_box(box_M, Eigen::Isometry3d::Identity(), images.signal(), mesh);
+    add_bottom(box_M);
     mover.solids.push_back(mesh::solid_of(c.name, box_M));
   }
   if (c.shape == Shape::balloon) {
@@ -156,12 +196,14 @@ void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& sc
   MoverImages images(derived_seed(seed, 0), scene);
   for (size_t k = 0; k < movers.size(); ++k) {
     fields::require_bounds(movers[k], "movers." + std::to_string(k));
-    require_motion(movers[k].motion);
-    scene.movers.push_back(make_mover(movers[k], derived_seed(seed, k + 1), images));
+    const MoverConfig mover = loaded(movers, k);
+    require_motion(mover.motion);
+    scene.movers.push_back(make_mover(mover, derived_seed(seed, k + 1), images));
   }
 }
 
 std::vector<std::string> add_files(const SceneAdditions& added, uint64_t seed, Scene& scene) {
+  for (size_t k = 0; k < added.movers.size(); ++k) loaded(added.movers, k);  // reports a faulty table before the flight
   scene.has_ground = added.has_plane();
   std::vector<std::string> lines = mesh::add_imports(added.imports, added.origin_ENU, scene);
   if (added.terrain) terrain::add_terrain(*added.terrain, added.origin_ENU, seed, scene);

@@ -13,7 +13,7 @@
 
 namespace hedgehop::scenes {
 
-/// A box on the ground.
+/// A box on the ground, or above it and tilted.
 struct BoxConfig {
   std::string name = "box";
   double north_m = 0.0, east_m = 0.0;  ///< of the center
@@ -21,6 +21,9 @@ struct BoxConfig {
   double width_m = 5.0;                ///< across the heading
   double height_m = 20.0;
   double heading_rad = 0.0;  ///< of the long axis, from north to east
+  double altitude_m = 0.0;   ///< of the bottom, before a tilt
+  /// Rotation about the center, instead of the heading: w, x, y, z about the axes of W. Empty: none.
+  std::vector<double> quaternion;
 
   /// Returns the corners in the plan (north, east), m, in order around the box.
   std::vector<Eigen::Vector2d> corners_NE_m() const;
@@ -33,9 +36,12 @@ void describe(Visitor& v, fields::ConfigOf<BoxConfig> auto& c) {
   v("east", c.east_m, {.unit = "m", .required = true, .meaning = "center of the box, east of the scene's origin"});
   v("length", c.length_m, {.unit = "m", .above = 0.0, .meaning = "length along the heading"});
   v("width", c.width_m, {.unit = "m", .above = 0.0, .meaning = "width across the heading"});
-  v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "height of the top above the ground"});
+  v("height", c.height_m, {.unit = "m", .above = 0.0, .meaning = "height of the box"});
   v("heading", c.heading_rad,
     {.unit = "deg", .at_least = -360.0, .at_most = 360.0, .meaning = "heading of the long axis, from north to east"});
+  v("altitude", c.altitude_m, {.unit = "m", .meaning = "altitude of the bottom, before a rotation by the quaternion"});
+  v("quaternion", c.quaternion,
+    {.meaning = "rotation about the center, instead of the heading: w, x, y, z about north, east and down"});
 }
 
 /// Adds brick boxes and their texture to a scene. The texture has the size of the scene's other textures.
@@ -43,14 +49,15 @@ void describe(Visitor& v, fields::ConfigOf<BoxConfig> auto& c) {
 /// @throws std::invalid_argument with the field, its value and the valid values.
 void add_boxes(const std::vector<BoxConfig>& boxes, uint64_t seed, Scene& scene);
 
-/// A moving obstacle. The origin of M is the obstacle's foot.
+/// A moving obstacle. The origin of M is the obstacle's foot, or the center of a cuboid.
 struct MoverConfig {
-  enum class Shape { balloon, pole, box, tree };
+  enum class Shape { balloon, pole, box, tree, cuboid };
 
   std::string name = "mover";
   Shape shape = Shape::balloon;
   double radius_m = 0.6;
   double height_m = 6.0;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Ones();  ///< of a cuboid, along the axes of M
   Motion motion;
 };
 
@@ -58,13 +65,18 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<MoverConfig> auto& c) {
   v("name", c.name, {.meaning = "name of the obstacle in results"});
   v("shape", c.shape,
-    {.choices = {"balloon", "pole", "box", "tree"},
-     .meaning = "a balloon on a thin pole, an upright cylinder, a square pillar, a tree"});
+    {.choices = {"balloon", "pole", "box", "tree", "cuboid"},
+     .meaning = "a balloon on a thin pole, an upright cylinder, a square pillar, a tree; a box around the point that "
+                "moves, which has a size and neither radius nor height"});
   v("radius", c.radius_m,
     {.unit = "m", .above = 0.0, .meaning = "radius of the balloon, pole or crown; half the width of a box"});
   v("height", c.height_m,
     {.unit = "m", .above = 0.0, .meaning = "height of the top, or of the balloon's center, above the foot"});
-  v("motion", c.motion, {.meaning = "motion of the foot"});
+  v("size", c.size_m,
+    {.unit = "m",
+     .above = 0.0,
+     .meaning = "size of a cuboid along its axes; these point north, east and down if it is not rotated"});
+  v("motion", c.motion, {.meaning = "motion of the foot, or of the center of a cuboid"});
 }
 
 /// Adds movers and their textures to a scene. The textures have the size of the scene's other textures.

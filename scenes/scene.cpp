@@ -1,5 +1,6 @@
 #include "scenes/scene.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace hedgehop::scenes {
@@ -30,6 +31,15 @@ const Solid& solid_at(const Scene& scene, size_t index) {
     index -= mover.solids.size();
   }
   throw std::out_of_range("the scene has fewer solids");
+}
+
+double reach_m(const Mover& mover) {
+  double reach_m = 0.0;
+  for (const Solid& solid : mover.solids) {
+    const Eigen::AlignedBox3d box_M = bounds_W(solid);
+    reach_m = std::max(reach_m, box_M.min().cwiseAbs().cwiseMax(box_M.max().cwiseAbs()).norm());
+  }
+  return reach_m;
 }
 
 std::vector<Instance> instances(const Scene& scene) {

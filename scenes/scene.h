@@ -72,7 +72,7 @@ struct Mesh {
   std::vector<Instance> instances = std::vector<Instance>(1);  ///< at least one
 };
 
-/// A moving obstacle. It translates without rotation: the axes of its frame M remain parallel to those of W.
+/// A moving obstacle. It moves with its frame M, whose axes remain parallel to those of W except in a TableMotion.
 struct Mover {
   std::string name;
   Mesh mesh;                  ///< like other meshes, but in M instead of W; one instance; uses the scene's textures
@@ -117,6 +117,9 @@ size_t solid_count(const Scene& scene);
 /// Returns a solid of the scene; indices past its own solids refer to those of its movers, in order.
 /// @param index  < solid_count().
 const Solid& solid_at(const Scene& scene, size_t index);
+
+/// Returns the maximum distance of the solids of a mover from M's origin, m.
+double reach_m(const Mover& mover);
 
 /// Returns the instances of all meshes in order, then one for each mover. The label of element i in images is 1 + i.
 std::vector<Instance> instances(const Scene& scene);

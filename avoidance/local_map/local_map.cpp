@@ -9,7 +9,9 @@
 #include "avoidance/local_map/altitude_levels.h"
 #include "avoidance/local_map/dead_reckoning.h"
 #include "avoidance/local_map/hull_clearance.h"
+#include "avoidance/local_map/kept_margin.h"
 #include "avoidance/local_map/local_map_overlay.h"
+#include "avoidance/local_map/nose_in_view.h"
 #include "avoidance/local_map/route_field.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "avoidance/local_map/surroundings.h"
@@ -43,11 +45,13 @@ class LocalMap final : public Module {
 
   void do_reset(const Setup& setup) override {
     const VehicleLimits& limits = setup.limits;
-    clearance_ = {limits.radius_m, config_.margin_m, config_.margin_time_s};
+    kept_margin_ = {config_.margin_m, config_.voxel_m};
+    clearance_ = {limits.radius_m, kept_margin_.planned_m(), config_.margin_time_s};
     hull_discs_ = HullDiscs(limits);
     // An obstacle may extend into a free voxel, so vehicles narrower than a voxel keep that distance.
     const double wide_m = clearance_.hull_m + clearance_.margin_m;
-    route_clearance_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kMinMarginM, config_.voxel_m))};
+    route_clearance_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kMinMarginM, config_.voxel_m)),
+                        kept_margin_.is_kept()};
     altitude_levels_ = AltitudeLevels(setup.altitude_band, route_clearance_);
     learned_ = {};
     around_.emplace(config_, setup, hull_discs_);
@@ -126,7 +130,9 @@ class LocalMap final : public Module {
     unknown_target_.update(held, hoped.path, slice(), hull_clearance_, clearance_.hull_m, now, heading);
     look(now, heading, route_m);
     const bool goes_on = route_m && !(waits(now) && !unknown_target_.place_W() && !arrived);
-    const double nose = with_course_in_view(now, nose_rad(observation, arrived, goes_on));
+    const double nose = nose_in_view(now, nose_rad(observation, arrived, goes_on),
+                                     nearest_approaching(now, around_->moving_obstacles(), clearance_.hull_m),
+                                     around_->half_view_rad(), unknown_target_.place_W().has_value());
     last_nose_rad_ = hull_clearance_.free_turn_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
 
@@ -139,12 +145,14 @@ class LocalMap final : public Module {
     decision.command = command;
     decision.status = arrived                     ? "arrive"
                       : !plan_.safe               ? "brake"
+                      : kept_margin_.is_narrow()  ? "narrow"
                       : around_->changes_height() ? "level"
                       : !goes_on                  ? "stuck"
                       : unknown_target_.place_W() ? "look"
                                                   : "cruise";
     stuck_ += !goes_on;
     stops_ += !plan_.safe;
+    kept_margin_.count(slice().to_occupied_m(p_W) - clearance_.hull_m);
     decision.signals = {route_m.value_or(std::nan("")),
                         (plan_.path.back().p_W - p_W).norm(),
                         around_->blocks().share(DepthBlock::Kind::unknown),
@@ -157,12 +165,13 @@ class LocalMap final : public Module {
 
   /// In passages that are too narrow for the margin even at walking pace, flies at walking pace with a reduced margin.
   void set_pace(const PathState& now, double heading, double height_m) {
-    constexpr double kWalkMps = 1.0, kHardlyFasterMps = 1.5, kSoonM = 1.5;
+    constexpr double kWalkMps = 1.0, kHardlyFasterMps = 1.5, kSoonM = 1.5, kEndless = HUGE_VAL;
     const double wide_m = clearance_.hull_m + clearance_.margin_m + clearance_.margin_s * kWalkMps;
-    const bool walks = now.v_W.norm() < kHardlyFasterMps && route_.nearest_m(now.p_W, kSoonM) < wide_m;
-    Clearance clearance = clearance_;
-    if (walks) clearance.margin_m = route_clearance_.least_m - clearance.hull_m;
-    hull_clearance_.set_clearance(clearance);
+    const double nearest_m = now.v_W.norm() < kHardlyFasterMps ? route_.nearest_m(now.p_W, kSoonM) : kEndless;
+    const bool walks = nearest_m < wide_m;
+    hull_clearance_.set_clearance(
+        walks ? kept_margin_.walking(clearance_, route_clearance_, slice(), now.p_W, nearest_m) : clearance_);
+    if (!walks) kept_margin_.widen();
     planner_ = StopPlanner(response_, std::min({max_mps_, kGroundRadps * height_m, walks ? kWalkMps : max_mps_}),
                            [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
   }
@@ -242,23 +251,15 @@ class LocalMap final : public Module {
     return towards(route_.route_W(p_W, kAheadM).back());
   }
 
-  /// Returns the heading, limited so that an approaching obstacle stays in view. At high speed it is also limited
-  /// relative to the course, so that obstacles that enter the course from the other side are visible.
-  double with_course_in_view(const PathState& now, double nose_rad) const {
-    constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
-    const auto near_to = [&](const Eigen::Vector2d& along_W, double most_rad) {
-      const double along_rad = std::atan2(along_W.y(), along_W.x());
-      nose_rad = along_rad + std::clamp(std::remainder(nose_rad - along_rad, 2.0 * M_PI), -most_rad, most_rad);
-    };
-    const MovingObstacle* const obstacle = nearest_approaching(now, around_->moving_obstacles(), clearance_.hull_m);
-    if (obstacle) near_to(obstacle->p_W - now.p_W, kShareOfView * around_->half_view_rad());
-    if ((obstacle || !unknown_target_.place_W()) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);
-    return nose_rad;
-  }
-
   std::vector<Metric> do_metrics() const override {
     const double n = std::max<double>(1.0, static_cast<double>(decisions_));
-    return {{"brake_share", static_cast<double>(stops_) / n, ""}, {"stuck_share", static_cast<double>(stuck_) / n, ""}};
+    std::vector<Metric> metrics = {{"brake_share", static_cast<double>(stops_) / n, ""},
+                                   {"stuck_share", static_cast<double>(stuck_) / n, ""}};
+    if (kept_margin_.is_kept() && decisions_ > 0) {
+      metrics.push_back({"narrow_share", static_cast<double>(kept_margin_.narrow_decisions()) / n, ""});
+      metrics.push_back({"map_margin", kept_margin_.least_m(), "m"});
+    }
+    return metrics;
   }
 
   cv::Mat do_annotate() const override {
@@ -275,6 +276,7 @@ class LocalMap final : public Module {
   StopPlanner::Plan plan_;
   Clearance clearance_;
   RouteClearance route_clearance_;
+  KeptMargin kept_margin_;
   HullDiscs hull_discs_;
   HullClearance hull_clearance_;
   DeadReckoning dead_reckoning_;  ///< source of all positions in this class

@@ -61,7 +61,11 @@ void describe(Visitor& v, fields::ConfigOf<LocalMapConfig> auto& c) {
      .meaning = "time after which space out of view is unknown again, because the position drifts"});
   v("speed", c.speed_mps,
     {.unit = "m/s", .above = 0.0, .meaning = "maximum speed without near obstacles; the vehicle's limit also applies"});
-  v("margin", c.margin_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum clearance around the hull at zero speed"});
+  v("margin", c.margin_m,
+    {.unit = "m",
+     .at_least = 0.0,
+     .meaning = "minimum clearance around the hull at zero speed; if larger than a voxel, it is kept wherever a way of "
+                "that width is known"});
   v("margin_time", c.margin_time_s, {.unit = "s", .at_least = 0.0, .meaning = "growth of the margin per speed"});
   v("braking", c.braking_share,
     {.above = 0.0, .at_most = 1.0, .meaning = "share of the vehicle's maximum acceleration that planned stops use"});

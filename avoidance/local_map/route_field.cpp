@@ -12,6 +12,8 @@ constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a
 constexpr double kSideM = 0.8;   // additional distance from obstacles that a route prefers
 constexpr int kClosePrice = 3;   // factor on the cost without the additional distance
 constexpr int kNarrowPrice = 5;  // factor on the cost below the preferred distance
+constexpr double kKeptPrice = 8.0,
+                 kDeepPrice = 8.0;  // the same if it is to be kept; additional at the minimum distance
 
 struct Step {
   int row, col;
@@ -41,6 +43,16 @@ constexpr size_t kMaxSquares = 20'000;  // maximum number of squares; above it a
 
 }  // namespace
 
+namespace {
+
+/// Returns the factor on the cost at a distance below the preferred one.
+double narrow_price(const RouteClearance& wanted, double away_m) {
+  if (!wanted.keeps_preferred) return kNarrowPrice;
+  return kKeptPrice + kDeepPrice * (wanted.preferred_m - away_m) / (wanted.preferred_m - wanted.least_m);
+}
+
+}  // namespace
+
 void RouteField::build(const LevelSlice& slice, const RouteClearance& route_clearance, const Eigen::Vector2d& goal_W,
                        const std::function<double(const Eigen::Vector2d&)>& beyond_m) {
   slice_ = &slice;
@@ -53,7 +65,7 @@ void RouteField::build(const LevelSlice& slice, const RouteClearance& route_clea
       if (away_m < route_clearance.least_m) continue;
       const double side = std::max(0.0, 1.0 - (away_m - route_clearance.preferred_m) / kSideM);
       double price = slice.at(row, col) == LevelSlice::State::free ? 1.0 : kUnknownPrice;
-      price *= side > 1.0 ? kNarrowPrice : 1.0 + (kClosePrice - 1) * side;
+      price *= side > 1.0 ? narrow_price(route_clearance, away_m) : 1.0 + (kClosePrice - 1) * side;
       price_[static_cast<size_t>(row * n + col)] = static_cast<uint8_t>(std::lround(kStraight * price));
     }
   }

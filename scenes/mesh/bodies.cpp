@@ -125,8 +125,11 @@ void add_box(const Eigen::AlignedBox3d& box_K, const Eigen::Isometry3d& X_WK, co
   for (const TexturedPanel& panel : side_panels(box_K)) add(panel);
   add(top_panel(box_K));
   constexpr double kOnGroundM = 1e-6;
-  const Eigen::Vector3d foot_K(box_K.center().x(), box_K.center().y(), box_K.max().z());
-  if ((X_WK * foot_K).z() < -kOnGroundM) add(bottom_panel(box_K));
+  using Corner = Eigen::AlignedBox3d::CornerType;
+  const auto is_above_ground = [&](Corner corner) { return (X_WK * box_K.corner(corner)).z() < -kOnGroundM; };
+  constexpr Corner kBottom[] = {Corner::BottomLeftCeil, Corner::BottomRightCeil, Corner::TopLeftCeil,
+                                Corner::TopRightCeil};
+  if (std::ranges::any_of(kBottom, is_above_ground)) add(bottom_panel(box_K));
 }
 
 Solid solid_of(const std::string& name, const Post& post) {

@@ -128,6 +128,33 @@ void declare_calibration(CLI::App& app, std::function<int()>& chosen, Calibratio
   command->callback([&] { chosen = [&calibration] { return cli::calibration(calibration); }; });
 }
 
+void declare_import(CLI::App& app, std::function<int()>& chosen, ImportOptions& field) {
+  CLI::App* const command = app.add_subcommand(
+      "import", "write an obstacle field of another program as a scene, for `scene: {use: FILE.yaml}`");
+  command
+      ->add_option(
+          "FORMAT", field.format,
+          "aerialist (tests of the UAV testing competition, YAML), sdf (worlds of SDFormat) or flightmare (CSV "
+          "of static boxes, YAML of boxes that move by CSV)")
+      ->required()
+      ->check(CLI::IsMember({"aerialist", "sdf", "flightmare"}));
+  command->add_option("FILES", field.files, "files of the field; their obstacles are added up")->required();
+  command->add_option("--scale", field.scale, "meters per unit of an SDF file; default 1")
+      ->transform(number())
+      ->check(positive())
+      ->type_name("M");
+  command->add_option("-o", field.out, "output file; default standard output")->type_name("FILE.yaml");
+  command
+      ->add_option("--solids", field.solids,
+                   "also write the pose and size of each obstacle, for a comparison with another reader")
+      ->type_name("FILE.csv");
+  command->add_option("--time", field.time_s, "time of the moving obstacles in this table, s; default 0")
+      ->transform(number())
+      ->check(not_negative())
+      ->type_name("S");
+  command->callback([&] { chosen = [&field] { return import_field(field); }; });
+}
+
 void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& data) {
   CLI::App* const command =
       app.add_subcommand("export", "re-simulate a run and write a data set or a log for other programs");
@@ -222,6 +249,7 @@ int parse_and_run(int argc, char** argv) {
   VehicleOptions vehicles;
   std::string topic;
   ExportOptions data;
+  ImportOptions field;
   DatasetOptions images{.arguments = {argv + 1, argv + argc}};
   std::string format, kind;
   declare_run(app, chosen, run);
@@ -229,6 +257,7 @@ int parse_and_run(int argc, char** argv) {
   declare_calibration(app, chosen, calibration);
   declare_campaigns(app, chosen);
   declare_export(app, chosen, data);
+  declare_import(app, chosen, field);
   declare_dataset(app, chosen, images);
   declare_reports(app, chosen);
   declare_list(app, chosen, topic);

@@ -64,6 +64,17 @@ struct CalibrationOptions {
 /// Writes the camera calibration of the rig for other programs.
 int calibration(const CalibrationOptions& options);
 
+struct ImportOptions {
+  std::string format;                        ///< a name of kFieldFormatNames
+  std::vector<std::filesystem::path> files;  ///< at least one
+  double scale = 1.0;                        ///< meters per unit of an SDF file
+  std::filesystem::path out;                 ///< empty: standard output
+  std::filesystem::path solids;              ///< table of the obstacles' poses; empty: none
+  double time_s = 0.0;                       ///< of the moving obstacles in the table
+};
+/// Writes an obstacle field of another program as a scene.
+int import_field(const ImportOptions& options);
+
 /// Topics of `hedgehop list`: those of a scenario (document_topics()), "sweep" and "campaign".
 std::vector<std::string> list_topics();
 int list(const std::string& topic);

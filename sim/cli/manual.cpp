@@ -30,6 +30,7 @@ constexpr Example kExamples[] = {
     {"render", "hedgehop render configs/garratt2009_city_0.yaml --camera front --what flow -o flow.png", ""},
     {"render", "hedgehop render --info", "the renderers of this machine"},
     {"calibration", "hedgehop calibration configs/garratt2009_city_0.yaml --format kalibr -o chain.yaml", ""},
+    {"import", "hedgehop import aerialist configs/fields/two_boxes.yaml -o two_boxes.yaml", ""},
     {"batch", "hedgehop batch configs/campaigns/garratt2009_room.yaml -j 2", "a campaign file"},
     {"batch", "hedgehop batch configs/quickstart.yaml --seeds 1:4 --out out/ci --junit checks.xml", "checks in CI"},
     {"batch", "hedgehop batch configs/garratt2009_room_0_light.yaml --seeds 1:20 --min-success 0.7", "a success rate"},

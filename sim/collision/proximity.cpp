@@ -76,9 +76,9 @@ class CollisionWorld::World {
                          reach_m, consider_other);
     if (nearest.id) last_nearest_ = nearest.id;
     for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
+      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
       for (size_t k = 0; k < mover_bodies.count; ++k)
-        consider(id_of_[mover_bodies.first + k], placed(mover_bodies, k, p_WM), nearest);
+        consider(id_of_[mover_bodies.first + k], placed(mover_bodies, k, X_WM), nearest);
     }
 
     Proximity result;
@@ -101,10 +101,10 @@ class CollisionWorld::World {
       height_m = std::min(height_m, height_above(p_WB, body));
     });
     for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
-      if ((p_WB - p_WM).head<2>().norm() > mover_bodies.radius_m) continue;
+      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
+      if ((p_WB - X_WM.translation()).head<2>().norm() > mover_bodies.radius_m) continue;
       for (size_t k = 0; k < mover_bodies.count; ++k) {
-        height_m = std::min(height_m, height_above(p_WB, placed(mover_bodies, k, p_WM)));
+        height_m = std::min(height_m, height_above(p_WB, placed(mover_bodies, k, X_WM)));
       }
     }
     return height_m;
@@ -121,8 +121,8 @@ class CollisionWorld::World {
     btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
     surfaces_.visit_along(p_W, end_W, [&](size_t, const PlacedBody& body) { meet(body); });
     for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Vector3d p_WM = scenes::p_WM(mover_bodies.motion, t_s);
-      for (size_t k = 0; k < mover_bodies.count; ++k) meet(placed(mover_bodies, k, p_WM));
+      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
+      for (size_t k = 0; k < mover_bodies.count; ++k) meet(placed(mover_bodies, k, X_WM));
     }
     return nearest_m <= reach_m ? nearest_m : kInfinity;
   }
@@ -193,9 +193,9 @@ class CollisionWorld::World {
     }
   }
 
-  PlacedBody placed(const MoverBodies& mover_bodies, size_t k, const Eigen::Vector3d& p_WM) const {
+  PlacedBody placed(const MoverBodies& mover_bodies, size_t k, const Eigen::Isometry3d& X_WM) const {
     const PlacedBody& in_M = placed_[mover_bodies.first + k];
-    return {*in_M.body, Eigen::Translation3d(p_WM) * in_M.X_WS};
+    return {*in_M.body, X_WM * in_M.X_WS};
   }
 
   void consider_last(size_t id, NearestBody& nearest) const {

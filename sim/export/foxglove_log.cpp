@@ -103,10 +103,8 @@ class FoxgloveLog : public LogSink {
     for (const LoggedCamera& camera : cameras_) {
       transforms.add_message(1, transform_message(t_ns, kBody, camera_frame(camera), camera.X_FC));
     }
-    for (size_t i = 0; i < state.p_EM_m.size(); ++i) {
-      Eigen::Isometry3d X_EM = Eigen::Isometry3d::Identity();
-      X_EM.translation() = state.p_EM_m[i];
-      transforms.add_message(1, transform_message(t_ns, kWorld, mover_frame(i), X_EM));
+    for (size_t i = 0; i < state.X_EM.size(); ++i) {
+      transforms.add_message(1, transform_message(t_ns, kWorld, mover_frame(i), state.X_EM[i]));
     }
     log(tf_, t_ns, transforms);
     log(pose_, t_ns, pose_in_frame(t_ns, kWorld, state.truth.X_EF));

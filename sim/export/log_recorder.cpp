@@ -144,7 +144,10 @@ void LogRecorder::on_row(const TrajectoryRow& row) {
   state.row = row;
   state.columns = first_numbers(trajectory_columns(one_row_));
   for (const scenes::Mover& mover : scene_->movers) {
-    state.p_EM_m.push_back(R_EW() * scenes::p_WM(mover.motion, row.t_s));
+    // The surfaces of a mover are logged about the axes of E, so its frame is turned on both sides.
+    const Eigen::Isometry3d X_WM = scenes::X_WM(mover.motion, row.t_s);
+    Eigen::Isometry3d& X_EM = state.X_EM.emplace_back(R_EW() * X_WM.linear() * R_EW().transpose());
+    X_EM.translation() = R_EW() * X_WM.translation();
   }
   sink_.on_state(t_ns, state);
   if (row.model_valid == model_was_valid_) return;

@@ -51,7 +51,7 @@ struct LoggedState {
   LoggedSigmas sigmas;
   TrajectoryRow row;
   NamedNumbers columns;                 ///< of trajectory.csv, without the time
-  std::vector<Eigen::Vector3d> p_EM_m;  ///< positions of the movers
+  std::vector<Eigen::Isometry3d> X_EM;  ///< poses of the movers
 };
 
 struct LoggedDecision {

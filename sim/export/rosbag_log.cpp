@@ -97,9 +97,8 @@ class RosbagLog : public LogSink {
 
   void on_state(int64_t t_ns, const LoggedState& state) override {
     std::vector<RosTransform> transforms{{{t_ns, kOdom}, kBaseLink, state.estimate.X_EF}};
-    for (size_t i = 0; i < state.p_EM_m.size(); ++i) {
-      transforms.push_back({{t_ns, kMap}, ros_mover_frame(i)});
-      transforms.back().X.translation() = state.p_EM_m[i];
+    for (size_t i = 0; i < state.X_EM.size(); ++i) {
+      transforms.push_back({{t_ns, kMap}, ros_mover_frame(i), state.X_EM[i]});
     }
     log(tf_, t_ns, ros_transforms(transforms));
     log(odometry_, t_ns, ros_odometry({t_ns, kOdom}, kBaseLink, state.estimate, state.sigmas));

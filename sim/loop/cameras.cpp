@@ -50,7 +50,7 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
       renderer_(renderer),
       first_mover_label_(scenes::first_mover_label(scene)),
       failures_(failures.begin(), failures.end()) {
-  for (const scenes::Mover& mover : scene.movers) movers_.push_back(mover.motion);
+  for (const scenes::Mover& mover : scene.movers) movers_.push_back({mover.motion, scenes::reach_m(mover)});
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
     const CameraConfig& camera = rig.cameras[i];
     const std::string path = fmt::format("rig.cameras.{}", i);
@@ -147,8 +147,8 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const BodyMotion& body = now.body;
   double mover_mps = 0.0;
-  for (const scenes::Motion& motion : movers_) {
-    mover_mps = std::max(mover_mps, scenes::v_WM(motion, seconds(now.t_ns)).norm());
+  for (const auto& [motion, reach_m] : movers_) {
+    mover_mps = std::max(mover_mps, scenes::max_speed_mps(motion, reach_m, seconds(now.t_ns)));
   }
   const Eigen::Vector3d v_WC_W = body.v_WB_W + body.X_WB.linear() * body.w_WB_B.cross(mounted.X_BC.translation());
   const double passing_mps = v_WC_W.norm() + mover_mps;

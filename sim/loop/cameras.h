@@ -100,7 +100,7 @@ class Cameras {
   std::vector<int> samples_;
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
-  std::vector<scenes::Motion> movers_;
+  std::vector<std::pair<scenes::Motion, double>> movers_;  ///< with the reach of their solids, m
   int first_mover_label_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;

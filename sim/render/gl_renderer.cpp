@@ -124,23 +124,21 @@ void GlRenderer::set_sunlight(const Eigen::Matrix4f& sun_from_W, float ambient) 
   }
 }
 
-/// Moving obstacles do not rotate. Each is drawn as static in its frame M, with the camera at p_MC. For static solids,
-/// M is W.
-void GlRenderer::set_camera_position(const Program& program, const Eigen::Isometry3d& X_WC,
-                                     const Eigen::Vector3d& p_WM) {
-  const Eigen::Vector3d p_MC_W = X_WC.translation() - p_WM, camera_M = on_float_grid(p_MC_W);
-  const Eigen::Vector3f camera_low_C = (X_WC.linear().transpose() * (p_MC_W - camera_M)).cast<float>();
+/// Each moving obstacle is drawn as static in its frame M, with the camera at X_MC. For static solids, M is W.
+void GlRenderer::set_camera_pose(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Isometry3d& X_WM) {
+  const Eigen::Matrix3d R_CM = X_WC.linear().transpose() * X_WM.linear();
+  const Eigen::Vector3d p_MC = X_WM.linear().transpose() * (X_WC.translation() - X_WM.translation());
+  const Eigen::Vector3d camera_M = on_float_grid(p_MC);
+  gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CM.cast<float>().eval().data());
   gl_.Uniform3fv(program.camera_W, 1, camera_M.cast<float>().eval().data());
-  gl_.Uniform3fv(program.camera_low_C, 1, camera_low_C.data());
-  if (program.p_WM >= 0) gl_.Uniform3fv(program.p_WM, 1, p_WM.cast<float>().eval().data());
+  gl_.Uniform3fv(program.camera_low_C, 1, (R_CM * (p_MC - camera_M)).cast<float>().eval().data());
+  if (program.X_WM >= 0) gl_.UniformMatrix4fv(program.X_WM, 1, GL_FALSE, X_WM.matrix().cast<float>().eval().data());
 }
 
 void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view,
                             const Program& program) {
-  const Eigen::Matrix3f R_CW = view.X_WC.linear().transpose().cast<float>();
   gl_.UseProgram(program.id);
-  set_camera_position(program, view.X_WC, Eigen::Vector3d::Zero());
-  gl_.UniformMatrix3fv(program.rotation, 1, GL_FALSE, R_CW.data());
+  set_camera_pose(program, view.X_WC, Eigen::Isometry3d::Identity());
   gl_.Uniform4fv(program.lens, 1, lens(camera).data());
 
   stretches_ = 0;
@@ -155,20 +153,21 @@ void GlRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const V
 
 void GlRenderer::draw_movers(const Viewpoint& view, const Program& program) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
-    const Eigen::Vector3d p_WM = scenes::p_WM(motions_[mover], view.t_s);
+    const Eigen::Isometry3d X_WM = scenes::X_WM(motions_[mover], view.t_s);
     stretches_ = 0;
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
       // Float coordinates in W are rounded; the margin of the box is larger than the rounding.
       constexpr float kMarginM = 0.01f;
-      const Eigen::Vector3f p = p_WM.cast<float>(), margin = Eigen::Vector3f::Constant(kMarginM);
-      const Eigen::AlignedBox3f box_W(chunk.box_W.min() + p - margin, chunk.box_W.max() + p + margin);
+      const Eigen::AlignedBox3f moved_W = chunk.box_W.transformed(X_WM.cast<float>());
+      const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMarginM);
+      const Eigen::AlignedBox3f box_W(moved_W.min() - margin, moved_W.max() + margin);
       if (chunk.index_count == 0 || !visible_.shows(box_W)) continue;
       counts_[stretches_] = static_cast<GLsizei>(chunk.index_count);
       offsets_[stretches_] = reinterpret_cast<const void*>(chunk.first_index * sizeof(uint32_t));
       ++stretches_;
     }
     if (stretches_ == 0) continue;
-    set_camera_position(program, view.X_WC, p_WM);
+    set_camera_pose(program, view.X_WC, X_WM);
     draw_stretches();
   }
 }

@@ -35,7 +35,7 @@ class GlRenderer : public PinholeRenderer {
   void set_sunlight(const Eigen::Matrix4f& sun_from_W, float ambient);
   void draw_movers(const Viewpoint& view, const Program& program);
   void draw_sky(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, bool grey);
-  void set_camera_position(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Vector3d& p_WM);
+  void set_camera_pose(const Program& program, const Eigen::Isometry3d& X_WC, const Eigen::Isometry3d& X_WM);
   void draw_stretches();
 
   std::unique_ptr<GlContext> context_;

@@ -33,10 +33,10 @@ class PinholeRenderer {
   virtual void render(const vision::camera::PinholeCamera& camera, const Viewpoint& view, Raster raster, int samples,
                       cv::Mat& out) = 0;
 
-  /// Pose of the next image, and the displacement of each moving obstacle until then.
+  /// Pose of the next image, and the motion of each moving obstacle until then.
   struct FlowTarget {
     Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-    std::span<const Eigen::Vector3d> moved_W_m;
+    std::span<const Eigen::Isometry3d> moved_W;  ///< from the points of W at this image to those at the next
   };
 
   /// Renders true flow, as ImageChannel::flow. Returns false without rendering if the flow must be computed from depth.

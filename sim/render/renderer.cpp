@@ -138,16 +138,18 @@ class Renderer::Impl {
   }
 
   void draw_flow(const CameraView& view, cv::Mat& out) {
-    moved_W_m_.clear();
+    moved_W_.clear();
     for (const scenes::Motion& motion : motions_) {
-      moved_W_m_.push_back(scenes::p_WM(motion, view.next.t_s) - scenes::p_WM(motion, view.t_s));
+      const Eigen::Isometry3d X_WM = scenes::X_WM(motion, view.t_s), X_WM_next = scenes::X_WM(motion, view.next.t_s);
+      Eigen::Isometry3d& moved_W = moved_W_.emplace_back(X_WM_next.linear() * X_WM.linear().transpose());
+      moved_W.translation() = X_WM_next.translation() - moved_W.linear() * X_WM.translation();
     }
     const bool pinhole = view.camera.is_undistorted_pinhole();
-    const PinholeRenderer::FlowTarget next{view.next.X_WC, moved_W_m_};
+    const PinholeRenderer::FlowTarget next{view.next.X_WC, moved_W_};
     if (pinhole && pinholes_->render_flow(view.camera.pinhole(), {view.X_WC, view.t_s}, next, out)) return;
     draw(view, ImageChannel::depth, flow_depth_);
     if (!motions_.empty()) draw(view, ImageChannel::labels, flow_labels_);
-    const FlowInput input{flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_m_};
+    const FlowInput input{flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_};
     if (pinhole) return true_flow(view.camera.pinhole(), input, out);
     Lens& lens = lens_of(view.camera);
     if (lens.rays.empty()) lens.rays = all_rays(view.camera);
@@ -173,7 +175,7 @@ class Renderer::Impl {
   std::deque<Lens> lenses_;
   scenes::Sky sky_;
   cv::Mat haze_depth_, flow_depth_, flow_labels_;
-  std::vector<Eigen::Vector3d> moved_W_m_;
+  std::vector<Eigen::Isometry3d> moved_W_;
   Drawn drawn_;
 };
 

@@ -69,15 +69,15 @@ void cut_into_tiles(const scenes::Chunk& chunk, const std::vector<DrawnVertex>& 
   }
 }
 
-/// Appends a mesh and returns its chunks with indices into the shared list. @param label  of its first instance; set to
-/// that of the next mesh.
-std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const scenes::Lights& lights, size_t& label,
-                                  SceneGeometry& geometry) {
+/// Appends a mesh and returns its chunks with indices into the shared list. @param R_WM  attitude in which the mesh is
+/// lit. @param label  of its first instance; set to that of the next mesh.
+std::vector<scenes::Chunk> append(const scenes::Mesh& mesh, const Eigen::Matrix3f& R_WM, const scenes::Lights& lights,
+                                  size_t& label, SceneGeometry& geometry) {
   const auto first_vertex = static_cast<uint32_t>(geometry.vertices.size());
   for (const scenes::Vertex& v : mesh.vertices) {
     geometry.vertices.push_back({{v.p_W.x(), v.p_W.y(), v.p_W.z()},
                                  {v.uv.x(), v.uv.y()},
-                                 brightness(lights, v.n_W),
+                                 brightness(lights, R_WM * v.n_W),
                                  static_cast<float>(v.texture),
                                  static_cast<float>(label + v.instance)});
   }
@@ -102,13 +102,15 @@ SceneGeometry make_geometry(const scenes::Scene& scene) {
   SceneGeometry geometry;
   size_t label = 1;
   for (const scenes::Mesh& mesh : scene.meshes) {
-    for (const scenes::Chunk& chunk : append(mesh, scene.lights, label, geometry)) {
+    for (const scenes::Chunk& chunk : append(mesh, Eigen::Matrix3f::Identity(), scene.lights, label, geometry)) {
       geometry.chunks.push_back(chunk);
       if (lies_flat(chunk)) cut_into_tiles(chunk, geometry.vertices, geometry.indices, geometry.tiles);
     }
   }
   for (const scenes::Mover& mover : scene.movers) {
-    geometry.mover_chunks.push_back(append(mover.mesh, scene.lights, label, geometry));
+    // A mover that turns keeps the light of its first attitude.
+    const Eigen::Matrix3f R_WM = scenes::X_WM(mover.motion, 0.0).linear().cast<float>();
+    geometry.mover_chunks.push_back(append(mover.mesh, R_WM, scene.lights, label, geometry));
   }
   return geometry;
 }

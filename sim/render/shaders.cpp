@@ -27,7 +27,7 @@ flat out float label_of_face;
 out vec3 coordinates;  // u, v, brightness
 flat out float layer;
 #ifdef SHADOWS
-uniform vec3 p_WM;
+uniform mat4 X_WM;
 uniform mat4 sun_from_W;
 out vec3 p_map;
 #endif
@@ -40,7 +40,7 @@ void main() {
   label_of_face = label;
 #endif
 #ifdef SHADOWS
-  p_map = (sun_from_W * vec4(p_W + p_WM, 1.0)).xyz;
+  p_map = (sun_from_W * (X_WM * vec4(p_W, 1.0))).xyz;
 #endif
 }
 )";
@@ -153,7 +153,7 @@ Program link(const GlFunctions& gl, const std::string& vertex_source, const std:
   program.lens = gl.GetUniformLocation(program.id, "lens");
   program.horizon = gl.GetUniformLocation(program.id, "horizon");
   program.zenith = gl.GetUniformLocation(program.id, "zenith");
-  program.p_WM = gl.GetUniformLocation(program.id, "p_WM");
+  program.X_WM = gl.GetUniformLocation(program.id, "X_WM");
   program.sun_from_W = gl.GetUniformLocation(program.id, "sun_from_W");
   program.ambient = gl.GetUniformLocation(program.id, "ambient");
   program.sun = gl.GetUniformLocation(program.id, "sun");

@@ -9,7 +9,7 @@ namespace hedgehop::sim {
 struct Program {
   GLuint id = 0;
   GLint camera_W = -1, camera_low_C = -1, rotation = -1, lens = -1, horizon = -1, zenith = -1;
-  GLint p_WM = -1, sun_from_W = -1, ambient = -1, sun = -1;  ///< for shadows
+  GLint X_WM = -1, sun_from_W = -1, ambient = -1, sun = -1;  ///< for shadows
 };
 
 /// Vertex attributes of all programs but sky_program().

@@ -17,9 +17,13 @@ struct FlowInput {
   const cv::Mat& depth;   ///< as ImageChannel::depth, of `camera`
   const cv::Mat& labels;  ///< as ImageChannel::labels; not read if no obstacle moves
   Eigen::Isometry3d X_WC, X_WC_next;
-  int first_mover_label = 0;                   ///< first label of a moving obstacle
-  std::span<const Eigen::Vector3d> moved_W_m;  ///< displacement of each moving obstacle until the next image
+  int first_mover_label = 0;  ///< first label of a moving obstacle
+  /// Motion of each moving obstacle until the next image: maps its points in W.
+  std::span<const Eigen::Isometry3d> moved_W;
 };
+
+/// Returns the displacement of a point. It is exactly the translation if the motion does not rotate.
+Eigen::Vector3d displacement(const Eigen::Isometry3d& moved_W, const Eigen::Vector3d& p_W);
 
 /// Computes the displacement of the point of each pixel until the next image. Sky is at infinity.
 /// @param rays  all_rays() of the camera.

@@ -32,6 +32,12 @@ std::set<fs::path> named_files(const Scenario& scenario) {
   const scenes::SceneAdditions& added = std::visit(
       [](const auto& chosen) -> const auto& { return chosen.added; }, scenario.scene);
   if (added.terrain) files.insert(added.terrain->heightmap);
+  const auto add_motion = [&files](const scenes::Motion& motion) {
+    if (const auto* const table = std::get_if<scenes::TableMotion>(&motion)) files.insert(table->file);
+  };
+  for (const scenes::MoverConfig& mover : added.movers) add_motion(mover.motion);
+  if (const auto* const balloon = std::get_if<scenes::worlds::BalloonConfig>(&scenario.scene))
+    add_motion(balloon->motion);
   for (const scenes::mesh::ImportConfig& import : added.imports) files.merge(scenes::mesh::mesh_files(import.file));
   for (const CameraConfig& camera : scenario.rig.cameras) files.insert(camera.calibration);
   files.insert(scenario.rig.read_calibrations.begin(), scenario.rig.read_calibrations.end());

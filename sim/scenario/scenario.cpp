@@ -43,8 +43,8 @@ constexpr FormerKey kFormerKeys[] = {
      .advice = "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"},
 };
 
-/// Makes the paths of imports and of the heightmap absolute, from the folder of the file that names them, so that the
-/// written scenario can be read from any folder.
+/// Makes the paths of imports, of tables of motion and of the heightmap absolute, from the folder of the file that
+/// names them, so that the written scenario can be read from any folder.
 void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   scenes::SceneAdditions& added = std::visit(
       [](auto& chosen) -> auto& { return chosen.added; }, scene);
@@ -55,6 +55,13 @@ void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   };
   for (size_t k = 0; k < added.imports.size(); ++k)
     resolve(added.imports[k].file, "scene.imports." + std::to_string(k) + ".file");
+  const auto resolve_motion = [&](scenes::Motion& motion, const std::string& key) {
+    if (auto* const table = std::get_if<scenes::TableMotion>(&motion)) resolve(table->file, key + ".file");
+  };
+  for (size_t k = 0; k < added.movers.size(); ++k)
+    resolve_motion(added.movers[k].motion, "scene.movers." + std::to_string(k) + ".motion");
+  if (auto* const balloon = std::get_if<scenes::worlds::BalloonConfig>(&scene))
+    resolve_motion(balloon->motion, "scene.motion");
   if (added.terrain) resolve(added.terrain->heightmap, "scene.terrain.heightmap");
 }
 

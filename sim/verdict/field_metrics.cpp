@@ -20,7 +20,7 @@ std::optional<double> time_to_collision_s(CollisionWorld& world, const scenes::S
   for (double after_s = 0.0; after_s <= horizon_s;) {
     double mover_mps = 0.0;
     for (const scenes::Mover& mover : scene.movers) {
-      mover_mps = std::max(mover_mps, scenes::v_WM(mover.motion, t_s + after_s).norm());
+      mover_mps = std::max(mover_mps, scenes::max_speed_mps(mover.motion, scenes::reach_m(mover), t_s + after_s));
     }
     const double closing_mps = std::max(kMinSpeedMps, v_WB_W.norm() + mover_mps);
     X_WB.translation() = start_W + after_s * v_WB_W;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 
 namespace hedgehop::scenes {
 namespace {
@@ -130,6 +132,70 @@ TEST(Motion, RejectsInvalidConfigs) {
               ThrowsMessage<E>(HasSubstr("motion.speed: must be >= 0 m/s, got -1")));
   EXPECT_THAT([] { require_motion(OrbitMotion{.radius_m = 0}); },
               ThrowsMessage<E>(HasSubstr("motion.radius: must be > 0 m, got 0")));
+}
+
+// A table whose frame moves north at 2 m/s and turns about the vertical at 0.5 rad/s, counter-clockwise from above.
+TableMotion turning(TableMotion::Repeat repeat) {
+  std::string text = "# header\n";
+  for (int i = 0; i <= 50; ++i) {
+    const double t_s = 0.02 * i, half_rad = 0.25 * t_s;
+    text += std::to_string(t_s) + ", " + std::to_string(2.0 * t_s) + ",-3,4," + std::to_string(std::cos(half_rad)) +
+            ",0,0," + std::to_string(std::sin(half_rad)) + "\n";
+  }
+  return {.repeat = repeat, .start_s = 5.0, .poses = std::make_shared<const PoseTable>(parse_pose_table(text))};
+}
+
+TEST(TableMotion, FollowsItsRowsAndTheLinesBetween) {
+  constexpr double kTextM = 2e-6;  // six digits in the text
+  const Motion motion = turning(TableMotion::Repeat::once);
+  for (const double after_s : {0.0, 0.02, 0.031, 0.5, 0.999}) {
+    const Eigen::Isometry3d X = X_WM(motion, 5.0 + after_s);
+    EXPECT_LT((X.translation() - Vector3d(2.0 * after_s, 3, -4)).norm(), kTextM);
+    EXPECT_LT((p_WM(motion, 5.0 + after_s) - X.translation()).norm(), kRoundingM);
+    // Seen from above, the axis that points north turns to the west.
+    const Vector3d north_M(std::cos(0.5 * after_s), -std::sin(0.5 * after_s), 0.0);
+    EXPECT_LT((X.linear().col(0) - north_M).norm(), kTextM) << after_s;
+    EXPECT_LT((X.linear().col(2) - Vector3d::UnitZ()).norm(), kTextM);
+    EXPECT_LT((v_WM(motion, 5.0 + after_s) - Vector3d(2, 0, 0)).norm(), 1e-3);
+    EXPECT_NEAR(max_speed_mps(motion, 4.0, 5.0 + after_s), 2.0 + 0.5 * 4.0, 1e-2);
+  }
+  expect_at(motion, 0.0, {0, 3, -4});
+  expect_at(motion, 77.0, {2, 3, -4});
+  EXPECT_EQ(max_speed_mps(motion, 4.0, 77.0), 0.0);
+}
+
+TEST(TableMotion, GoesBackOrRestarts) {
+  const Motion back = turning(TableMotion::Repeat::back_and_forth), again = turning(TableMotion::Repeat::restart);
+  for (const double after_s : {0.1, 0.33, 0.9}) {
+    const Eigen::Isometry3d first = X_WM(back, 5.0 + after_s);
+    EXPECT_LT((X_WM(back, 7.0 - after_s).matrix() - first.matrix()).norm(), kRoundingM);
+    EXPECT_LT((X_WM(back, 7.0 + after_s).matrix() - first.matrix()).norm(), kRoundingM);
+    EXPECT_LT((X_WM(again, 6.0 + after_s).matrix() - first.matrix()).norm(), kRoundingM);
+    EXPECT_LT((v_WM(back, 7.0 - after_s) + Vector3d(2, 0, 0)).norm(), 1e-3);
+  }
+}
+
+TEST(OtherMotions, DoNotRotate) {
+  for (const Motion& motion : {Motion(bent(Repeat::round)), Motion(OrbitMotion{})}) {
+    EXPECT_EQ(X_WM(motion, 13.7).linear(), Eigen::Matrix3d::Identity());
+    EXPECT_EQ(X_WM(motion, 13.7).translation(), p_WM(motion, 13.7));
+    EXPECT_EQ(max_speed_mps(motion, 9.0, 13.7), v_WM(motion, 13.7).norm());
+  }
+}
+
+TEST(TableMotion, RefusesFaultyTables) {
+  using testing::HasSubstr, testing::ThrowsMessage;
+  using E = std::invalid_argument;
+  const auto parse = [](const char* text) { return [text] { parse_pose_table(text); }; };
+  EXPECT_THAT(parse("# nothing\n"), ThrowsMessage<E>(HasSubstr("no rows")));
+  EXPECT_THAT(parse("0,0,0,0,1,0,0\n"), ThrowsMessage<E>(HasSubstr("line 1: expected 8 values")));
+  EXPECT_THAT(parse("0,0,0,0,1,0,0,0\n1,0,0,x,1,0,0,0\n"), ThrowsMessage<E>(HasSubstr("line 2: expected a number")));
+  EXPECT_THAT(parse("0,0,0,0,1,0,0,nan\n"), ThrowsMessage<E>(HasSubstr("line 1: expected a number")));
+  EXPECT_THAT(parse("0,0,0,0,1,1,0,0\n"), ThrowsMessage<E>(HasSubstr("quaternion")));
+  EXPECT_THAT(parse("1,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n"), ThrowsMessage<E>(HasSubstr("row 2")));
+  Motion absent = TableMotion{.file = "absent.csv"};
+  EXPECT_THAT([&] { load_motion(absent); }, ThrowsMessage<E>(HasSubstr("motion.file: 'absent.csv'")));
+  EXPECT_THAT([&] { require_motion(absent); }, ThrowsMessage<E>(HasSubstr("not loaded")));
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ struct NextSlopes {
   Slope u, v, z;
 };
 
-/// @param w  current 1 / z of the surface, 0 for the sky. @param p_CnC_m  for the frame of the surface, see NextView.
-inline NextSlopes next_slopes(const PinholeImage& lens, const double (&R_CnC)[9], const double p_CnC_m[3],
-                              const Affine& w, int u, int v) {
+/// @param next  of the frame of the surface. @param w  current 1 / z of the surface, 0 for the sky.
+inline NextSlopes next_slopes(const PinholeImage& lens, const NextPose& next, const Affine& w, int u, int v) {
+  const double* const p_CnC_m = next.p_CnC_m;
   const auto along = [&](int axis) -> Affine {
-    const double* const r = R_CnC + 3 * axis;
+    const double* const r = next.R_CnC + 3 * axis;
     const double right = r[0] * lens.per_focal_x, down = r[1] * lens.per_focal_y;
     return {right + p_CnC_m[axis] * w.right, down + p_CnC_m[axis] * w.down,
             r[2] - right * lens.center_u_px - down * lens.center_v_px + p_CnC_m[axis] * w.at_origin};
@@ -58,8 +58,7 @@ inline void write_flow(const NextSlopes& next, uint64_t pixels, FlowValue (&valu
 }
 
 /// As Kernels::flow.
-inline void flow(const Frame& frame, const NextView& next, const ImageMemory& image) {
-  constexpr double kStatic[3] = {};
+inline void flow(const Frame& frame, const NextPose* next, const ImageMemory& image) {
   for (int row = 0; row < frame.down; ++row) {
     for (int column = 0; column < frame.across; ++column) {
       const int u = kTilePx * column, v = kTilePx * row;
@@ -69,10 +68,9 @@ inline void flow(const Frame& frame, const NextView& next, const ImageMemory& im
       for (uint16_t i = 0; i < tile.count; ++i) {
         const Surface& surface = frame.surfaces[tile.layers[i].surface];
         sky &= ~tile.layers[i].pixels;
-        write_flow(next_slopes(frame.lens, next.R_CnC, next.p_CnC_m + 3 * surface.pose, surface.w, u, v),
-                   tile.layers[i].pixels, values);
+        write_flow(next_slopes(frame.lens, next[surface.pose], surface.w, u, v), tile.layers[i].pixels, values);
       }
-      if (sky != 0) write_flow(next_slopes(frame.lens, next.R_CnC, kStatic, {}, u, v), sky, values);
+      if (sky != 0) write_flow(next_slopes(frame.lens, next[0], {}, u, v), sky, values);
       write_values(values, window_of(frame, image, column, row, sizeof(FlowValue)), image.step);
     }
   }

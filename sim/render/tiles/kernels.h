@@ -17,11 +17,10 @@ struct Box {
   float low_m[3], high_m[3];
 };
 
-/// Pose of the next image. Cn: C at that time.
-struct NextView {
+/// Pose of C in Cn, C at the time of the next image, for points fixed in the frame of one of Frame::poses.
+struct NextPose {
   double R_CnC[9];  ///< row-major
-  const double*
-      p_CnC_m;  ///< three for each of Frame::poses: position of C in Cn, for points fixed in the frame of the pose
+  double p_CnC_m[3];
 };
 
 /// The loops over facets and pixels, compiled for one type of processor. All give the same bits.
@@ -37,8 +36,9 @@ struct Kernels {
   /// Writes the image. Several samples per pixel for grey and color only.
   void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const ImageMemory& image);
 
-  /// Writes the flow until the next image, CV_32FC2, as ImageChannel::flow.
-  void (*flow)(const Frame& frame, const NextView& next, const ImageMemory& image);
+  /// Writes the flow until the next image, CV_32FC2, as ImageChannel::flow. @param next  one for each of Frame::poses;
+  /// the sky turns with the first.
+  void (*flow)(const Frame& frame, const NextPose* next, const ImageMemory& image);
 };
 
 extern const Kernels kPlainKernels;

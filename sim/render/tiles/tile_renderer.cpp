@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/render/tiles/sun_depths.h"
+#include "sim/render/true_flow.h"
 #include "sim/render/visible_chunks.h"
 
 namespace hedgehop::sim::tiles {
@@ -16,12 +17,12 @@ PinholeImage lens_of(const vision::camera::PinholeCamera& camera) {
           camera.center_u_px, camera.center_v_px, camera.width_px,         camera.height_px};
 }
 
-/// @param p_MC_W  position of the camera in the frame of the facets, whose axes are those of W.
-ViewPose pose_at(const Eigen::Vector3d& p_MC_W, const Eigen::Matrix3d& R_WC) {
+/// @param X_MC  pose of the camera in the frame of the facets.
+ViewPose pose_at(const Eigen::Isometry3d& X_MC) {
   ViewPose pose{};
   for (int i = 0; i < 3; ++i) {
-    pose.p_m[i] = p_MC_W[i];
-    for (int k = 0; k < 3; ++k) pose.R_CW[3 * i + k] = R_WC(k, i);
+    pose.p_m[i] = X_MC.translation()[i];
+    for (int k = 0; k < 3; ++k) pose.R_CW[3 * i + k] = X_MC.linear()(k, i);
   }
   return pose;
 }
@@ -84,24 +85,24 @@ bool TileRenderer::render_flow(const vision::camera::PinholeCamera& camera, cons
                                const FlowTarget& next, cv::Mat& out) {
   out.create(camera.height_px, camera.width_px, CV_32FC2);
   draw_scene(camera, view, 1);
-  const Eigen::Matrix3d R_CnW = next.X_WC.linear().transpose(), R_CnC = R_CnW * view.X_WC.linear();
-  NextView next_view{};
-  for (int i = 0; i < 9; ++i) next_view.R_CnC[i] = R_CnC(i / 3, i % 3);
-  p_CnC_m_.clear();
+  const Eigen::Matrix3d R_CnW = next.X_WC.linear().transpose();
   const Eigen::Vector3d flown_W_m = next.X_WC.translation() - view.X_WC.translation();
-  const auto add = [&](const Eigen::Vector3d& moved_W_m) {
-    const Eigen::Vector3d p_CnC_m = R_CnW * (moved_W_m - flown_W_m);
-    p_CnC_m_.insert(p_CnC_m_.end(), p_CnC_m.begin(), p_CnC_m.end());
+  next_poses_.clear();
+  const auto add = [&](const Eigen::Isometry3d& moved_W) {
+    const Eigen::Matrix3d R_CnC = R_CnW * (moved_W.linear() * view.X_WC.linear());
+    const Eigen::Vector3d p_CnC_m = R_CnW * (displacement(moved_W, view.X_WC.translation()) - flown_W_m);
+    NextPose& pose = next_poses_.emplace_back();
+    for (int i = 0; i < 9; ++i) pose.R_CnC[i] = R_CnC(i / 3, i % 3);
+    for (int i = 0; i < 3; ++i) pose.p_CnC_m[i] = p_CnC_m[i];
   };
-  add(Eigen::Vector3d::Zero());
-  for (const Eigen::Vector3d& moved_W_m : next.moved_W_m) add(moved_W_m);
-  next_view.p_CnC_m = p_CnC_m_.data();
-  kernels_.flow(memory_.frame(), next_view, {out.data, out.step[0]});
+  add(Eigen::Isometry3d::Identity());
+  for (const Eigen::Isometry3d& moved_W : next.moved_W) add(moved_W);
+  kernels_.flow(memory_.frame(), next_poses_.data(), {out.data, out.step[0]});
   return true;
 }
 
 void TileRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const Viewpoint& view, int samples) {
-  view_.world = pose_at(view.X_WC.translation(), view.X_WC.linear());
+  view_.world = pose_at(view.X_WC);
   memory_.begin(lens_of(camera), samples);
   memory_.add_pose(view_.world);
   visible_.find(camera, view.X_WC, culling_, *this);
@@ -122,11 +123,14 @@ bool TileRenderer::hides(const Eigen::AlignedBox3f& box_W) const {
   return kernels_.hides(memory_.frame(), memory_.frame().poses[kWorldPose], box_of(box_W), kNearPlaneM);
 }
 
-/// Moving obstacles do not rotate. Each is drawn as static in its frame M, with the camera at p_MC.
+/// Each moving obstacle is drawn as static in its frame M, with the camera at X_MC.
 void TileRenderer::draw_movers(const Viewpoint& view) {
   for (size_t mover = 0; mover < motions_.size(); ++mover) {
-    const Eigen::Vector3d p_MC_W = view.X_WC.translation() - scenes::p_WM(motions_[mover], view.t_s);
-    memory_.add_pose(pose_at(p_MC_W, view.X_WC.linear()));
+    const Eigen::Isometry3d X_WM = scenes::X_WM(motions_[mover], view.t_s);
+    Eigen::Isometry3d X_MC = Eigen::Isometry3d::Identity();
+    X_MC.linear() = X_WM.linear().transpose() * view.X_WC.linear();
+    X_MC.translation() = X_WM.linear().transpose() * (view.X_WC.translation() - X_WM.translation());
+    memory_.add_pose(pose_at(X_MC));
     const auto index = static_cast<uint32_t>(1 + mover);
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
       const tiles::ViewPose& seen_from = memory_.frame().poses[index];

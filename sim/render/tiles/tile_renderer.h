@@ -46,7 +46,7 @@ class TileRenderer : public PinholeRenderer, private VisibleChunks::VisibilitySi
   std::vector<SunBlock> sun_blocks_[SunBlocks::kLevels];
   SceneView view_{};
   FrameMemory memory_;
-  std::vector<double> p_CnC_m_;  ///< of NextView
+  std::vector<NextPose> next_poses_;  ///< of the last flow image
 };
 
 }  // namespace hedgehop::sim::tiles

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -215,6 +216,40 @@ TEST(Movers, CollideAtTheirPositionAtThatTime) {
     if (std::isfinite(frozen.height_above_surface(above, 0.0))) {
       ASSERT_NEAR(world.height_above_surface(above, t_s), frozen.height_above_surface(above, 0.0), 1e-9);
     }
+  }
+}
+
+TEST(Movers, CollideInTheirAttitudeAtThatTime) {
+  const Vector3d axis = Vector3d(0.4, 0.7, -0.6).normalized(), half_m(0.5, 1.5, 2.5);
+  const auto X_WM = [&](double t_s) {
+    return Isometry3d(Eigen::Translation3d(2.0 - t_s, 0.5 * t_s, -8.0) * AngleAxisd(0.7 * t_s, axis));
+  };
+  std::vector<scenes::PoseRow> rows;
+  for (int i = 0; i <= 40; ++i) {
+    rows.push_back({0.1 * i, X_WM(0.1 * i).translation(), Eigen::Quaterniond(X_WM(0.1 * i).linear())});
+  }
+  scenes::Mover mover;
+  mover.motion = scenes::TableMotion{.poses = std::make_shared<const scenes::PoseTable>(rows)};
+  mover.solids = {scenes::mesh::solid_of("slab", Eigen::AlignedBox3d(-half_m, half_m))};
+  scenes::Scene scene;
+  scene.movers = {mover};
+  CollisionWorld world(scene, small_helicopter());
+  EXPECT_NEAR(scenes::reach_m(mover), half_m.norm(), 1e-12);
+  Random random(7);
+  std::uniform_real_distribution<double> time(0.0, 4.0);
+  for (int i = 0; i < 300; ++i) {
+    const double t_s = time(random);
+    Solid still = mover.solids[0];
+    still.X_WS = X_WM(t_s) * still.X_WS;
+    CollisionWorld frozen(scene_of({still}), small_helicopter());
+    const Isometry3d X_WB = random_pose(random, 5.0);
+    const Proximity a = world.query(Eigen::Translation3d(0, 0, -8) * X_WB, 100.0, t_s);
+    const Proximity b = frozen.query(Eigen::Translation3d(0, 0, -8) * X_WB, 100.0, 0.0);
+    ASSERT_EQ(a.collided, b.collided);
+    ASSERT_NEAR(a.obstacle_clearance_m, b.obstacle_clearance_m, a.collided ? 1e-3 : 1e-6);
+    const Vector3d from_W(-6, 0.3, -8);
+    ASSERT_NEAR(std::min(world.distance_along(from_W, Vector3d::UnitX(), 50.0, t_s), 99.0),
+                std::min(frozen.distance_along(from_W, Vector3d::UnitX(), 50.0, 0.0), 99.0), 1e-6);
   }
 }
 

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "avoidance/local_map/level_slice.h"
+#include "avoidance/local_map/route_field.h"
+#include "avoidance/local_map/stop_planner.h"
+
+namespace hedgehop::avoidance::local_map {
+
+/// A margin that is larger than a voxel is kept wherever a way of that width is known. Smaller ones are below the
+/// resolution of the map: they are reduced in every narrow passage. Plans add the errors of the map to a margin that is
+/// kept, and routes prefer detours to narrower passages.
+class KeptMargin {
+ public:
+  KeptMargin() = default;
+  /// @param margin_m  as configured. @param voxel_m  of the map.
+  KeptMargin(double margin_m, double voxel_m)
+      : is_kept_(margin_m > voxel_m), planned_m_(margin_m + (is_kept_ ? kMapErrorVoxels * voxel_m : 0.0)) {}
+
+  bool is_kept() const { return is_kept_; }
+  /// Returns the margin of plans and routes, m.
+  double planned_m() const { return planned_m_; }
+
+  /// Returns the clearance at walking pace. A margin that is not kept is the minimum. One that is kept does not grow
+  /// with the speed. If the route leads closer to obstacles than the vehicle is now, no way with the margin is known;
+  /// then it is that of the route.
+  /// @param full  clearance with the planned margin. @param nearest_m  minimum distance of the route from obstacles.
+  Clearance walking(const Clearance& full, const RouteClearance& route_clearance, const LevelSlice& slice,
+                    const Eigen::Vector2d& p_W, double nearest_m) {
+    Clearance clearance = full;
+    if (!is_kept_) {
+      clearance.margin_m = route_clearance.least_m - full.hull_m;
+      return clearance;
+    }
+    const double error_m = 0.5 * slice.cell_m();
+    const bool comes_closer = nearest_m < slice.to_occupied_m(p_W) - error_m;
+    is_narrow_ = nearest_m < route_clearance.preferred_m && (is_narrow_ || comes_closer);
+    clearance.margin_s = 0.0;
+    if (is_narrow_) clearance.margin_m = std::max(nearest_m - error_m, route_clearance.least_m) - clearance.hull_m;
+    return clearance;
+  }
+  /// Ends a narrow passage.
+  void widen() { is_narrow_ = false; }
+  bool is_narrow() const { return is_narrow_; }
+
+  /// Counts a decision. @param margin_m  distance from the hull to occupied cells.
+  void count(double margin_m) {
+    narrows_ += is_narrow_;
+    least_m_ = std::min(least_m_, margin_m);
+  }
+  int64_t narrow_decisions() const { return narrows_; }
+  double least_m() const { return least_m_; }  ///< infinite before the first decision
+
+ private:
+  static constexpr double kMapErrorVoxels = 1.0;  // half for a look-up of the distance, half for the map itself
+
+  bool is_kept_ = false, is_narrow_ = false;
+  double planned_m_ = 0.0;
+  int64_t narrows_ = 0;
+  double least_m_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace hedgehop::avoidance::local_map
