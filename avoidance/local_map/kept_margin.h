@@ -56,7 +56,7 @@ class KeptMargin {
   double least_m() const { return least_m_; }  ///< infinite before the first decision
 
  private:
-  static constexpr double kMapErrorVoxels = 1.0;  // half for a look-up of the distance, half for the map itself
+  static constexpr double kMapErrorVoxels = 1.5;  // half for a look-up of the distance, one for the map and its drift
 
   bool is_kept_ = false, is_narrow_ = false;
   double planned_m_ = 0.0;
