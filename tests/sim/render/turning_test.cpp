@@ -31,13 +31,14 @@ struct TurningBox {
     return scenes::TableMotion{.poses = std::make_shared<const scenes::PoseTable>(rows)};
   }
 
-  /// Returns the first point of a ray in the box, in W: slabs in the frame of the box.
-  std::optional<Vector3d> hit_W(const Vector3d& from_W, const Vector3d& ray_W, double t_s) const {
+  /// Returns the first point of a ray in the box, in W: slabs in the frame of the box. @param axis  normal of the face.
+  std::optional<Vector3d> hit_W(const Vector3d& from_W, const Vector3d& ray_W, double t_s, int& axis) const {
     const Vector3d from = rotation(t_s).transpose() * (from_W - center_W(t_s));
     const Vector3d ray = rotation(t_s).transpose() * ray_W;
     double enter = 0.0, leave = 1e9;
     for (int i = 0; i < 3; ++i) {
       const double a = (-half_m[i] - from[i]) / ray[i], b = (half_m[i] - from[i]) / ray[i];
+      if (std::min(a, b) > enter) axis = i;
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
@@ -72,8 +73,9 @@ TEST(TurningMovers, AreDrawnInTheirAttitudeAtThatTime) {
     const CameraView view = view_at(camera, ImageChannel::depth, t_s);
     cv::Mat depth;
     renderer.draw(view, depth);
+    int axis = 0;
     const auto hit = [&](double u, double v) {
-      return box.hit_W(view.X_WC.translation(), view.X_WC.linear() * camera.ray_at_unit_depth({u, v}), t_s);
+      return box.hit_W(view.X_WC.translation(), view.X_WC.linear() * camera.ray_at_unit_depth({u, v}), t_s, axis);
     };
     for (int v = 0; v < depth.rows; ++v) {
       for (int u = 0; u < depth.cols; ++u) {
@@ -98,7 +100,7 @@ TEST(TurningMovers, HaveTheFlowOfTheirPoints) {
   const TurningBox box;
   Renderer renderer = make_renderer(scene_of(box));
   std::mt19937_64 random(11);
-  constexpr double kFlowPx = 0.05, kEdgePx = 1.5;
+  constexpr double kTurningFlowPx = 0.05, kEdgePx = 2.5;
   int on_box = 0;
   for (const vision::camera::Camera& camera :
        {vision::camera::Camera(vision::camera::PinholeCamera::from_fov(160, 120, 1.2)),
@@ -108,22 +110,28 @@ TEST(TurningMovers, HaveTheFlowOfTheirPoints) {
     view.next.X_WC.translation() += Vector3d(0.3, 0.1, -0.1);
     cv::Mat flow;
     renderer.draw(view, flow);
+    int axis = 0;
     const auto hit = [&](double u, double v) -> std::optional<Vector3d> {
       const auto ray_C = camera.unit_ray({u, v});
       if (!ray_C) return std::nullopt;
-      return box.hit_W(view.X_WC.translation(), view.X_WC.linear() * *ray_C, view.t_s);
+      return box.hit_W(view.X_WC.translation(), view.X_WC.linear() * *ray_C, view.t_s, axis);
     };
     for (int v = 0; v < flow.rows; ++v) {
       for (int u = 0; u < flow.cols; ++u) {
         const auto here = hit(u, v);
-        if (!here || !hit(u - kEdgePx, v) || !hit(u + kEdgePx, v) || !hit(u, v - kEdgePx) || !hit(u, v + kEdgePx))
+        if (!here) continue;
+        const int face = axis;
+        const auto on_face = [&](double at_u, double at_v) { return hit(at_u, at_v).has_value() && axis == face; };
+        // A lens draws an edge of the box from several pixels.
+        if (!on_face(u - kEdgePx, v) || !on_face(u + kEdgePx, v) || !on_face(u, v - kEdgePx) ||
+            !on_face(u, v + kEdgePx))
           continue;
         const Eigen::Matrix3d turned = box.rotation(view.next.t_s) * box.rotation(view.t_s).transpose();
         const Vector3d next_W = box.center_W(view.next.t_s) + turned * (*here - box.center_W(view.t_s));
         const auto next = camera.project(view.next.X_WC.inverse() * next_W);
         if (!next) continue;
-        EXPECT_NEAR(flow.at<cv::Vec2f>(v, u)[0], next->x() - u, kFlowPx) << u << " " << v;
-        EXPECT_NEAR(flow.at<cv::Vec2f>(v, u)[1], next->y() - v, kFlowPx) << u << " " << v;
+        EXPECT_NEAR(flow.at<cv::Vec2f>(v, u)[0], next->x() - u, kTurningFlowPx) << u << " " << v;
+        EXPECT_NEAR(flow.at<cv::Vec2f>(v, u)[1], next->y() - v, kTurningFlowPx) << u << " " << v;
         ++on_box;
       }
     }
