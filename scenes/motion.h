@@ -108,7 +108,7 @@ void load_motion(Motion& motion);
 /// a table is not loaded.
 void require_motion(const Motion& motion);
 
-/// Returns the position of M in W, m. It is continuous in time, except where a table restarts. @param t_s  >= 0.
+/// Returns the position of M in W, m. It is continuous in time, except at the restart of a table. @param t_s  >= 0.
 Eigen::Vector3d p_WM(const Motion& motion, double t_s);
 
 /// Returns the pose of M in W; its rotation is exactly the identity except for tables.

@@ -41,7 +41,7 @@ class PoseTable {
 
 /// Parses rows "t, x, y, z, qw, qx, qy, qz", in s and m, about axes north, west, up. Lines that begin with # and empty
 /// lines are skipped, and times count from the first row. Quaternions are normalized.
-/// @throws std::invalid_argument with the line, the value and what is valid.
+/// @throws std::invalid_argument with the line, the value and the valid values.
 PoseTable parse_pose_table(std::string_view text);
 
 /// Reads a file as parse_pose_table(). @throws std::invalid_argument also if it cannot be read.

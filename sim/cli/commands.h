@@ -69,7 +69,7 @@ struct ImportOptions {
   std::vector<std::filesystem::path> files;  ///< at least one
   double scale = 1.0;                        ///< meters per unit of an SDF file
   std::filesystem::path out;                 ///< empty: standard output
-  std::filesystem::path solids;              ///< table of the obstacles' poses; empty: none
+  std::filesystem::path solids;              ///< table of the obstacles' poses; empty: no table
   double time_s = 0.0;                       ///< of the moving obstacles in the table
 };
 /// Writes an obstacle field of another program as a scene.

@@ -187,7 +187,7 @@ TEST(TableMotion, RefusesFaultyTables) {
   using testing::HasSubstr, testing::ThrowsMessage;
   using E = std::invalid_argument;
   const auto parse = [](const char* text) { return [text] { parse_pose_table(text); }; };
-  EXPECT_THAT(parse("# nothing\n"), ThrowsMessage<E>(HasSubstr("no rows")));
+  EXPECT_THAT(parse("# empty\n"), ThrowsMessage<E>(HasSubstr("no rows")));
   EXPECT_THAT(parse("0,0,0,0,1,0,0\n"), ThrowsMessage<E>(HasSubstr("line 1: expected 8 values")));
   EXPECT_THAT(parse("0,0,0,0,1,0,0,0\n1,0,0,x,1,0,0,0\n"), ThrowsMessage<E>(HasSubstr("line 2: expected a number")));
   EXPECT_THAT(parse("0,0,0,0,1,0,0,nan\n"), ThrowsMessage<E>(HasSubstr("line 1: expected a number")));
