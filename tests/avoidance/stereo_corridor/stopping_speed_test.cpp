@@ -13,10 +13,10 @@ constexpr double kAccelerationMps2 = 2.0, kHullM = 0.7, kReactionS = 1.0;
 
 /// A view of 64 x 64 px, 90 degrees, of a wall in front of the sky in the rows above `below_px`.
 double speed_mps(int below_px, double wall_m, const Vector3d& v_WB_C) {
-  constexpr int kSizePx = 64;
+  constexpr int kImagePx = 64;
   const vision::stereo::StereoGeometry geometry{
       .focal_px = 32.0, .center_u_px = 31.5, .center_v_px = 31.5, .baseline_m = 0.5};
-  cv::Mat disparity16(kSizePx, kSizePx, CV_16SC1, cv::Scalar(0));
+  cv::Mat disparity16(kImagePx, kImagePx, CV_16SC1, cv::Scalar(0));
   if (below_px > 0) disparity16.rowRange(0, below_px).setTo(geometry.disparity16(wall_m));
   vision::stereo::DepthPyramid pyramid;
   pyramid.build(disparity16, CorridorSearch::kCoarsestLevel);
