@@ -26,6 +26,7 @@ rig: {{cameras: [{{role: front, width: 16, height: 16, fov: 90, rate: 25, channe
 avoidance: {{module: go_to_goal}}
 goal: {{north: 5, east: 0, altitude: 1, radius: 1}}
 checks: [CHECK]
+drawing: {{renderer: tiles}}
 """
 
 

@@ -95,7 +95,8 @@ TEST(Batch, RecordWithAFormerKeyIsRefusedWithItsNewName) {
 TEST(Batch, FlightWithoutChecksDoesNotPass) {
   const CampaignFolder folder;
   std::string scenario = folder.read("tiny.yaml");
-  scenario.replace(scenario.find("checks:"), std::string::npos, "may_collide: true\nchecks: []\n");
+  scenario.replace(scenario.find("checks:"), std::string::npos,
+                   "may_collide: true\nchecks: []\ndrawing: {renderer: tiles}\n");
   folder.write("free.yaml", scenario);
   const CommandEnd end = folder.hedgehop("batch free.yaml --out out --junit j.xml");
   EXPECT_EQ(end.status, 0) << end.err;
@@ -109,7 +110,7 @@ TEST(Batch, JUnitNamesTheObstacleOfACollision) {
   const CampaignFolder folder;
   folder.write("wall.yaml", "use: " HEDGEHOP_SOURCE_DIR
                             "/configs/worlds/wall.yaml\nname: wall\nduration: 15\n"
-                            "may_collide: false\n");
+                            "may_collide: false\ndrawing: {renderer: tiles}\n");
   EXPECT_EQ(folder.hedgehop("batch wall.yaml --out out --junit j.xml").status, 1);
   const std::string cases = junit_cases(folder, "j.xml");
   EXPECT_THAT(cases, ContainsRegex("wall/seed1/flight\n  collided \\(hit wall at [0-9.]+ s\\)"));

@@ -62,7 +62,8 @@ TEST(Options, AScenarioMayFollowSet) {
 
 TEST(NumberOptions, ReadDecimally) {
   const Answer answer =
-      ask("run " + kScenario + " --seed 010 --set duration=0.02 --set 'checks=[]' --no-video --json --out " +
+      ask("run " + kScenario +
+          " --seed 010 --set duration=0.02 --set 'checks=[]' --renderer tiles --no-video --json --out " +
           testing::TempDir() + "/decimal_number");
   EXPECT_THAT(answer.text, HasSubstr("\"seed\": 10,"));
 }

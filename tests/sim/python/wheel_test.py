@@ -80,7 +80,7 @@ class Wheel(unittest.TestCase):
         program.chmod(0o755)  # zipfile does not keep modes
         module = self.folder / "prefix.py"
         module.write_text(PREFIX)
-        said = subprocess.run([program, "run", SOURCE / "configs/quickstart.yaml", "--no-video", "--out", self.folder / "out", "--set",
+        said = subprocess.run([program, "run", SOURCE / "configs/quickstart.yaml", "--renderer", "tiles", "--no-video", "--out", self.folder / "out", "--set",
                                f"avoidance={{python: {module}, class: Prefix}}"], capture_output=True, text=True,
                               env={**os.environ, "PYTHONPATH": "", "VIRTUAL_ENV": "/absent"})
         self.assertEqual(said.returncode, 2)

@@ -83,7 +83,8 @@ TEST(Simulation, ResolvedScenarioFliesTheSameFlight) {
 }
 
 TEST(Simulation, PartsBuiltByTheReaderGiveTheSameFlight) {
-  const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]"};
+  const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]",
+                                              "drawing.renderer=tiles"};
   const std::string file = std::string(HEDGEHOP_SOURCE_DIR) + "/configs/garratt2009_city_0_light.yaml";
   LoadedScenario loaded = load_flight(file, overrides, /*seed=*/7);
   const Scenario scenario = loaded.scenario;

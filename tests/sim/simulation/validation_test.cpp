@@ -68,7 +68,9 @@ const std::vector<ScenarioError>& scenario_errors() {
   return errors;
 }
 
-Scenario validated_city() { return load_scenario(kConfigs / "garratt2009_city_0.yaml"); }
+Scenario validated_city() {
+  return load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"drawing.renderer=tiles"});
+}
 
 /// The messages of a file, without their positions.
 std::vector<std::string> without_positions(std::vector<std::string> lines) {
