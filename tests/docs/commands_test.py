@@ -210,7 +210,7 @@ class Commands(unittest.TestCase):
             flown |= here
             with self.subTest(line=line):
                 self.run_line(line, counts_sweeps=page == "docs/verification.md")
-            if self.lacks_osmesa:  # later commands read what this one would have written
+            if self.lacks_osmesa:  # later commands read its files
                 return
         if program:  # may read the results of the commands
             (self.folder / "page.py").write_text(program)
