@@ -1,6 +1,6 @@
 #include "scenes/worlds/map.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <numbers>
