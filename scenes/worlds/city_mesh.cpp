@@ -168,17 +168,13 @@ mesh::TexturedPanel part(const mesh::TexturedPanel& wall, double left, double ri
   return {at(left) + top_m * down, at(right) - at(left), (bottom_m - top_m) * down};
 }
 
-}  // namespace
-
-Elevation random_elevation(int style, double height_m, bool on_ground, Random& random) {
-  constexpr double kMinFloorM = 2.0;
-  Elevation elevation;
-  elevation.style = style;
-  elevation.first_floor = uniform_index(random, textures::facade_styles()[static_cast<size_t>(style)].floors);
-  if (height_m < textures::kCorniceM + kMinFloorM) elevation.cornice_m = 0.0;
-  if (on_ground && height_m > textures::kShopM + textures::kCorniceM + kMinFloorM) elevation.shop_m = textures::kShopM;
-  return elevation;
-}
+// Floors of a box, equal on its four walls.
+struct Elevation {
+  int style = 0;
+  double cornice_m = textures::kCorniceM;  // height at the top
+  double shop_m = 0.0;                     // height of the shops at the bottom, 0: no shops
+  int first_floor = 0;                     // within the texture
+};
 
 void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const textures::CityTextures& city,
               Random& random, Random* wear, mesh::MeshBuilder& mesh) {
@@ -228,8 +224,11 @@ void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const
   }
 }
 
+}  // namespace
+
 void add_building(const Building& building, const textures::CityTextures& city, Random& random, Random* wear,
                   mesh::MeshBuilder& mesh) {
+  constexpr double kMinFloorM = 2.0;
   const int style = uniform_index(random, static_cast<int>(textures::facade_styles().size()));
   for (size_t k = 0; k < building.boxes_W.size(); ++k) {
     const Eigen::AlignedBox3d& box_W = building.boxes_W[k];
@@ -243,7 +242,12 @@ void add_building(const Building& building, const textures::CityTextures& city, 
         mesh.add_tiled(wall, textures::kRoofTileM, roof_shift, roof);
       continue;
     }
-    const Elevation elevation = random_elevation(style, box_W.sizes().z(), k == 0, random);
+    Elevation elevation;
+    elevation.style = style;
+    elevation.first_floor = uniform_index(random, textures::facade_styles()[static_cast<size_t>(style)].floors);
+    const double height = box_W.sizes().z();
+    if (height < textures::kCorniceM + kMinFloorM) elevation.cornice_m = 0.0;
+    if (k == 0 && height > textures::kShopM + textures::kCorniceM + kMinFloorM) elevation.shop_m = textures::kShopM;
     for (const mesh::TexturedPanel& wall : mesh::side_panels(box_W))
       add_wall(wall, elevation, city, random, wear, mesh);
   }

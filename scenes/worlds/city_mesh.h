@@ -17,22 +17,6 @@ inline constexpr double kGroundMarginM = 12000.0;
 void add_city_ground(const UrbanPlan& plan, const textures::CityTextures& city, uint64_t seed, bool wear,
                      mesh::MeshBuilder& mesh);
 
-/// Floors of a box, equal on its walls.
-struct Elevation {
-  int style = 0;                           ///< index into textures::facade_styles()
-  double cornice_m = textures::kCorniceM;  ///< height at the top
-  double shop_m = 0.0;                     ///< height of the shops at the bottom, 0: no shops
-  int first_floor = 0;                     ///< within the texture
-};
-
-/// Returns the elevation of a box with a random part of its style's texture: with a cornice and, on the ground, shops
-/// if it is high enough. @param style  index into textures::facade_styles(). @param height_m  of the walls.
-Elevation random_elevation(int style, double height_m, bool on_ground, Random& random);
-
-/// Adds a wall to the current chunk: complete windows, shops and a cornice. @param wear  as for add_building().
-void add_wall(const mesh::TexturedPanel& wall, const Elevation& elevation, const textures::CityTextures& city,
-              Random& random, Random* wear, mesh::MeshBuilder& mesh);
-
 /// Adds a building with one chunk per box: shops on the ground floor, complete windows, a cornice and a roof. Random
 /// choices are the style of the walls and, for each face, the part and the variant of the textures.
 /// @param wear  if not null, chooses the windows of each floor and span of bays, so that no two facades are equal.
