@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/record/result_files.h"
 #include "sim/scenario/scenario.h"
@@ -17,7 +18,8 @@ class RunFolder : public TemporaryFolder {
                        fake_flight(10.0, 1));
   }
   std::string yaml() const {
-    return to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml"));
+    const std::vector<std::string> overrides = {"drawing.renderer=tiles"};
+    return to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml", overrides));
   }
 };
 
