@@ -210,7 +210,7 @@ class FromFile(unittest.TestCase):
     def test_an_interrupt_ends_the_program_and_is_not_a_fault(self):
         awake = self.folder / "awake"
         os.mkfifo(awake)
-        flying = subprocess.Popen([PROGRAM, "run", CITY, "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
+        flying = subprocess.Popen([PROGRAM, "run", CITY, "--renderer", "tiles", "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
                                    f"avoidance={{python: {self.file}, class: Sleeps}}"], stderr=subprocess.DEVNULL,
                                   env={**os.environ, "AWAKE": str(awake)}, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         self.assertIn("awake", awake.read_text(), "it never decided")
