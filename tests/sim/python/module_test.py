@@ -197,7 +197,7 @@ class FromFile(unittest.TestCase):
         self.assertIn("after its flight: 'metrics' must be a dict of names and numbers, or return one, got '3 turns'", result["cause"])
         sim = hedgehop.Simulation(CITY, set={**self.python("AnnotatesANumber"), "film.enabled": True})
         self.assertEqual(sim.run()["outcome"], "timeout")  # no film, so no image is requested
-        done = subprocess.run([PROGRAM, "run", CITY, "--no-report", "--out", self.folder / "number", "--set", "film.enabled=true", "--set",
+        done = subprocess.run([PROGRAM, "run", CITY, "--renderer", "tiles", "--no-report", "--out", self.folder / "number", "--set", "film.enabled=true", "--set",
                                "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: AnnotatesANumber}}"],
                               capture_output=True, text=True)
         result = hedgehop.load(self.folder / "number").result
@@ -220,7 +220,7 @@ class FromFile(unittest.TestCase):
         self.assertFalse((self.folder / "interrupted/result.json").exists())
 
     def test_printed_text_is_not_part_of_the_results(self):
-        done = subprocess.run([PROGRAM, "run", CITY, "--no-video", "--no-report", "--json", "--out", self.folder / "prints", "--set",
+        done = subprocess.run([PROGRAM, "run", CITY, "--renderer", "tiles", "--no-video", "--no-report", "--json", "--out", self.folder / "prints", "--set",
                                "duration=0.2", "--set", f"avoidance={{python: {self.file}, class: Prints}}"],
                               capture_output=True, text=True)
         self.assertEqual(json.loads(done.stdout)["outcome"], "timeout")
@@ -278,12 +278,18 @@ class Forgetful:
 
 
 class Contract(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.tree = pathlib.Path(folder.name) / "tree.yaml"
+        self.tree.write_text(f"use: {TREE}\ndrawing: {{renderer: tiles}}\n")
+
     def test_a_good_module_passes(self):
-        hedgehop.testing.check_module(Dodge, TREE)
+        hedgehop.testing.check_module(Dodge, self.tree)
 
     def test_a_module_with_memory_across_flights_fails(self):
         with self.assertRaisesRegex(AssertionError, "equal inputs give different decisions"):
-            hedgehop.testing.check_module(Forgetful, TREE)
+            hedgehop.testing.check_module(Forgetful, self.tree)
 
     def test_a_module_that_fails_without_images_fails(self):
         class Fragile:
@@ -293,7 +299,7 @@ class Contract(unittest.TestCase):
                 return hedgehop.HoverCommand(float(observation.images["left"].mean()) * 1e-3)
 
         with self.assertRaises(KeyError):
-            hedgehop.testing.check_module(Fragile, TREE)
+            hedgehop.testing.check_module(Fragile, self.tree)
 
 
 if __name__ == "__main__":
