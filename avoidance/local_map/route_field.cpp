@@ -12,8 +12,9 @@ constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a
 constexpr double kSideM = 0.8;   // additional distance from obstacles that a route prefers
 constexpr int kClosePrice = 3;   // factor on the cost without the additional distance
 constexpr int kNarrowPrice = 5;  // factor on the cost below the preferred distance
-constexpr double kKeptPrice = 8.0,
-                 kDeepPrice = 8.0;  // the same if it is to be kept; additional at the minimum distance
+constexpr double kKeptPrice = 8.0;  // the same if the preferred distance is to be kept
+constexpr double kDeepPrice = 8.0;  // additional factor at the minimum distance
+static_assert(kStraight * RouteField::kUnknownPrice * (kKeptPrice + kDeepPrice) <= 255, "a price has 8 bits");
 
 struct Step {
   int row, col;
@@ -40,10 +41,6 @@ constexpr double kSquareM = 3.0, kHighM = 1.2;
 constexpr int kSquares = 4;             // number of squares around that of the vehicle
 constexpr double kBothWaysPrice = 3.5;  // cost of a meter of climb and descent, in meters of path
 constexpr size_t kMaxSquares = 20'000;  // maximum number of squares; above it all are deleted
-
-}  // namespace
-
-namespace {
 
 /// Returns the factor on the cost at a distance below the preferred one.
 double narrow_price(const RouteClearance& wanted, double away_m) {

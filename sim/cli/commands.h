@@ -251,6 +251,9 @@ struct ReportOptions {
   std::string column;             ///< of the figures; empty: the default of the page
   size_t film_strips = 0;         ///< of a batch or sweep: worst flights to re-simulate for a film strip
 };
+/// Declare the commands that read and write files of other programs.
+void declare_import(CLI::App& app, std::function<int()>& chosen, ImportOptions& field);
+void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& data);
 void declare_reports(CLI::App& app, std::function<int()>& chosen);
 /// Writes index.html, a table of all results in a folder tree.
 int runs(const std::filesystem::path& folder);
