@@ -8,10 +8,10 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-constexpr int kStraight = 10;    // cost of a step to a neighbor, in tenths of a cell
-constexpr double kSideM = 0.8;   // additional distance from obstacles that a route prefers
-constexpr int kClosePrice = 3;   // factor on the cost without the additional distance
-constexpr int kNarrowPrice = 5;  // factor on the cost below the preferred distance
+constexpr int kStraight = 10;       // cost of a step to a neighbor, in tenths of a cell
+constexpr double kSideM = 0.8;      // additional distance from obstacles that a route prefers
+constexpr int kClosePrice = 3;      // factor on the cost without the additional distance
+constexpr int kNarrowPrice = 5;     // factor on the cost below the preferred distance
 constexpr double kKeptPrice = 8.0;  // the same if the preferred distance is to be kept
 constexpr double kDeepPrice = 8.0;  // additional factor at the minimum distance
 static_assert(kStraight * RouteField::kUnknownPrice * (kKeptPrice + kDeepPrice) <= 255, "a price has 8 bits");
