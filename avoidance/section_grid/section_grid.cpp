@@ -10,6 +10,8 @@
 
 #include "avoidance/section_grid/section_law.h"
 #include "avoidance/section_grid/section_pilot.h"
+#include "avoidance/section_grid/seen_space.h"
+#include "avoidance/section_grid/upright_view.h"
 #include "avoidance/stereo/depth_overlay.h"
 #include "avoidance/stereo/passed_obstacles.h"
 #include "sim/fields/bounds.h"
@@ -46,15 +48,17 @@ class SectionGridModule final : public Module {
 
   void do_reset(const Setup& setup) override {
     source_.emplace(config_.depth, DisparitySource::Grey::unused, config_.stereo, setup);
-    camera_ = {source_->geometry(), source_->X_BC(), source_->image()};
-    search_.emplace(grid(), camera_.image);
-    law_.reset(camera_);
-    pilot_.reset(camera_);
+    view_ = UprightView({source_->geometry(), source_->X_BC(), source_->image()});
+    const SectionCamera& camera = view_.camera();
+    search_.emplace(grid(), camera.image);
+    law_.reset(camera);
+    pilot_.reset(camera, setup.limits.radius_m);
+    seen_.reset();
     passed_.emplace(stereo::PassedObstaclesConfig{.radius_m = is_modified() ? config_.passed_radius_m : 0.0,
                                                   .near_m = config_.threshold_m,
                                                   .keep_s = kKeepPassedS});
-    depth_m_ = cv::Mat(camera_.image, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
-    hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera_.X_BC.translation().x());
+    depth_m_ = cv::Mat(camera.image, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+    hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - camera.X_BC.translation().x());
     last_.reset();
     hover_s_ = 0.0;
     rejected_ = 0;
@@ -73,12 +77,12 @@ class SectionGridModule final : public Module {
     const bool is_new = read_depth(observation.frames);
     if (!is_new && last_) return *last_;
     const NavigationState& navigation = observation.navigation;
-    if (is_new && is_modified() && config_.passed_radius_m > 0.0) remember(observation);
+    if (is_new && is_modified()) remember(observation);
     const double threshold_m = threshold(navigation.v_WB_B_est.norm());
     choice_ = choose(navigation, threshold_m);
 
     Decision decision;
-    const SectionView view{*search_, choice_, *passed_, threshold_m, navigation};
+    const SectionView view{*search_, choice_, *passed_, seen_, threshold_m, navigation};
     decision.command = is_modified() ? pilot_.update(view, observation.goal) : law_.update(view, observation.goal);
     if (state() == State::hover_and_yaw && t_ns_ >= 0) {
       hover_s_ += seconds(observation.t_ns - t_ns_);
@@ -98,22 +102,24 @@ class SectionGridModule final : public Module {
   bool read_depth(std::span<const CameraFrame> frames) {
     if (!source_->update(frames)) return false;
     if (config_.depth == DisparitySource::From::camera) {
-      source_->depth_m().copyTo(depth_m_);
+      source_->depth_m().copyTo(mounted_depth_m_);
+      view_.rotate(mounted_depth_m_, depth_m_);
       return true;
     }
     constexpr int kSameSegment16 = 32;  // two pixels of disparity: the block matcher has about one pixel of noise
     vision::stereo::remove_specks(source_->disparity16(), kSameSegment16, config_.speck_px);
-    vision::stereo::to_depth(source_->disparity16(), camera_.geometry, depth_m_);
+    vision::stereo::to_depth(source_->disparity16(), source_->geometry(), mounted_depth_m_);
+    view_.rotate(mounted_depth_m_, depth_m_);
     return true;
   }
 
   /// Stores the newest image for the time after it has left the view.
   void remember(const Observation& observation) {
-    constexpr int kBlockLevel = 3;  // blocks of 8 px
     const NavigationState& navigation = observation.navigation;
-    pyramid_.build(source_->disparity16(), kBlockLevel);
-    passed_->update(observation.t_ns, pyramid_, camera_.geometry,
-                    Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * camera_.X_BC);
+    const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_->X_BC();
+    pyramid_.build(source_->disparity16(), SeenSpace::kBlockLevel);
+    passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
+    seen_.update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
   }
 
   /// Distance below which an obstacle is a threat, m. With the modified law it grows with speed.
@@ -162,14 +168,15 @@ class SectionGridModule final : public Module {
 
   SectionGridConfig config_;
   std::optional<DisparitySource> source_;
-  SectionCamera camera_;
+  UprightView view_;
   std::optional<vision::sections::SectionSearch> search_;
-  cv::Mat depth_m_;
+  cv::Mat mounted_depth_m_, depth_m_;  ///< of the camera as it is mounted, and upright
   vision::sections::SectionChoice choice_;
   SectionLaw law_;
   SectionPilot pilot_;
   vision::stereo::DepthPyramid pyramid_;
   std::optional<stereo::PassedObstacles> passed_;
+  SeenSpace seen_;
   std::optional<Decision> last_;
   int64_t t_ns_ = -1, rejected_ = 0;
   double hover_s_ = 0.0;

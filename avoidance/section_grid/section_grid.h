@@ -77,8 +77,8 @@ void describe(Visitor& v, fields::ConfigOf<SectionGridConfig> auto& c) {
   v("passed_radius", c.passed_radius_m,
     {.unit = "m",
      .at_least = 0.0,
-     .meaning = "modified: radius of the cylinder that must be free of obstacles that have left the image; 0 disables "
-                "the memory"});
+     .meaning = "modified: radius of the cylinder that must be free of obstacles that have left the image, and, before "
+                "the route is resumed, also of those in view; 0 disables the test"});
   v("unknown", c.unknown,
     {.choices = {"free", "threat"},
      .meaning = "modified: treatment of a pixel without depth; threat stops in front of plain walls, and in front of "

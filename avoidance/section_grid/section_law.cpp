@@ -54,7 +54,7 @@ void SectionLaw::reset(const SectionCamera& camera) {
 }
 
 Command SectionLaw::update(const SectionView& view, const Goal& goal) {
-  const auto& [search, choice, passed, reach_m, navigation] = view;
+  const auto& [search, choice, passed, seen, reach_m, navigation] = view;
   if (aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < kArrivedM) aside_W_.reset();
   // "The UAV then yaws in order to align with this new GPS point, before moving": a turn is always completed.
   if (!mover_.is_turning()) {

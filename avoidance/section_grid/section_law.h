@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "avoidance/module.h"
+#include "avoidance/section_grid/seen_space.h"
 #include "avoidance/stereo/passed_obstacles.h"
 #include "vision/sections/section_search.h"
 #include "vision/stereo/disparity.h"
@@ -32,6 +33,7 @@ struct SectionView {
   const vision::sections::SectionSearch& search;  ///< sections and threats of the newest image
   const vision::sections::SectionChoice& choice;  ///< the chosen section
   const stereo::PassedObstacles& passed;          ///< obstacles that have left the image; not used by the published law
+  const SeenSpace& seen;                          ///< space that images have shown free; likewise
   double reach_m = 0.0;                           ///< distance of a temporary position, > 0
   const NavigationState& navigation;
 };

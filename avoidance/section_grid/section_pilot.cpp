@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "avoidance/heading.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::avoidance::section_grid {
 
@@ -30,8 +31,9 @@ bool faces_path(Answer answer) { return answer == Answer::waypoint || answer == 
 SectionPilot::SectionPilot(const SectionGridConfig& config)
     : answer_(config.answer), keep_share_(config.keep_share), lowest_m_(config.lowest_m) {}
 
-void SectionPilot::reset(const SectionCamera& camera) {
+void SectionPilot::reset(const SectionCamera& camera, double radius_m) {
   camera_ = camera;
+  radius_m_ = radius_m;
   state_ = State::cruise;
   mover_ = {};
   turn_ = 1.0;
@@ -40,11 +42,12 @@ void SectionPilot::reset(const SectionCamera& camera) {
   away_ = 1.0;
   watched_rad_.reset();
   sweep_.reset();
+  level_z_W_.reset();
   flown_ = false;
 }
 
 Command SectionPilot::update(const SectionView& view, const Goal& goal) {
-  const auto& [search, choice, passed, reach_m, navigation] = view;
+  const auto& [search, choice, passed, seen, reach_m, navigation] = view;
   if (!flown_ && (goal.p_WG - navigation.p_WB_est).norm() < reach_m) post_W_ = goal.p_WG;
   flown_ = true;
   const bool hovers = post_W_ && !faces_path(answer_);
@@ -53,7 +56,9 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
 
   const bool looked_round = state_ == State::hover_and_yaw;
   const bool arrived = aside_W_ && (*aside_W_ - navigation.p_WB_est).norm() < kArrivedM;
-  if (aside_W_ && (arrived || (!post_W_ && is_free(goal.p_WG, view)))) {
+  // If the section straight ahead were not free, the next image would block the route again, closer to the obstacle.
+  const bool resumes = !post_W_ && search.share(search.center()) <= keep_share_ && is_free(goal.p_WG, view);
+  if (aside_W_ && (arrived || resumes)) {
     if (post_W_) post_W_ = aside_W_;
     aside_W_.reset();
     state_ = State::resume;
@@ -74,9 +79,33 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
     state_ = State::cruise;
     return PositionCommand{*post_W_, watched_rad_.value_or(goal.heading_rad)};
   }
-  const Command command = mover_.go_to(goal.p_WG, navigation);
+  const Command command = mover_.go_to(descent_W(goal.p_WG, view), navigation);
   if (!mover_.is_turning()) state_ = State::cruise;
   return command;
+}
+
+/// Returns a position over or at `end_W`, as low as images have shown the path to be free; at the vehicle's altitude if
+/// no descent is free. It therefore does not descend into an obstacle that it has climbed over and no longer sees.
+Eigen::Vector3d SectionPilot::descent_W(const Eigen::Vector3d& end_W, const SectionView& view) {
+  constexpr double kLevelM = 0.5;  // of altitude: about the error of the estimate
+  constexpr double kClearM = 0.5;  // beside the hull
+  const Eigen::Vector3d& p_WB = view.navigation.p_WB_est;
+  const double down_m = end_W.z() - p_WB.z();
+  if (down_m > kLevelM) {
+    for (const double share : {1.0, 0.5, 0.25}) {
+      Eigen::Vector3d lower_W = end_W;
+      lower_W.z() = p_WB.z() + share * down_m;
+      const Eigen::Vector3d path_W = lower_W - p_WB;
+      const Eigen::Vector3d tested_W = p_WB + std::min(1.0, view.reach_m / path_W.norm()) * path_W;
+      if (!view.seen.free_path(p_WB, tested_W, radius_m_ + kClearM)) continue;
+      level_z_W_.reset();
+      return lower_W;
+    }
+    if (!level_z_W_) level_z_W_ = p_WB.z();
+    return {end_W.x(), end_W.y(), *level_z_W_};
+  }
+  level_z_W_.reset();
+  return end_W;
 }
 
 /// Hovers and yaws until a section is free. [Perez2018] sec. V-D.
@@ -148,9 +177,10 @@ std::optional<cv::Point2d> SectionPilot::pixel_of(const Eigen::Vector3d& p_W, co
   return cv::Point2d(g.center_u_px + g.focal_px * p_C.x() / p_C.z(), g.center_v_px + g.focal_px * p_C.y() / p_C.z());
 }
 
-/// Whether a position farther than kArrivedM is within a free section.
+/// Whether a position farther than kArrivedM is within a free section. A section that is narrower than the vehicle near
+/// an obstacle does not suffice, so near obstacles in view count like those out of view.
 bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const SectionView& view) const {
-  const auto& [search, choice, passed, reach_m, navigation] = view;
+  const auto& [search, choice, passed, seen, reach_m, navigation] = view;
   const auto pixel = pixel_of(p_W, navigation);
   if (!pixel || (p_W - navigation.p_WB_est).norm() < kArrivedM) return false;
   const int section = search.nearest(*pixel);
@@ -160,13 +190,13 @@ bool SectionPilot::is_free(const Eigen::Vector3d& p_W, const SectionView& view) 
   constexpr double kWithin =
       0.25;  // share of the section size: farther out, the section shows too little of the far side of the position
   return off_u_px < kWithin * s.width && off_v_px < kWithin * s.height && search.share(section) <= keep_share_ &&
-         passed.free(p_W - navigation.p_WB_est);
+         passed.free(p_W - navigation.p_WB_est, kInfinity, stereo::PassedObstacles::Among::all);
 }
 
 /// Whether the path to `end_W` has filled up and another section is better. If no section contains `end_W`, the path
 /// ahead is tested.
 bool SectionPilot::is_blocked(const Eigen::Vector3d& end_W, const SectionView& view) const {
-  const auto& [search, choice, passed, reach_m, navigation] = view;
+  const auto& [search, choice, passed, seen, reach_m, navigation] = view;
   if (aside_W_ && !faces_path(answer_)) return false;
   const auto pixel = aside_W_ ? pixel_of(end_W, navigation) : std::nullopt;
   const int section = pixel ? search.nearest(*pixel) : search.center();

@@ -19,8 +19,9 @@ bool faces_path(Answer answer);
 
 /// The modified law, that is SectionLaw with these additions:
 /// - A path is given up only if its section fills up. Otherwise every change of a pixel would move the position.
-/// - The route is resumed as soon as the section that contains the goal is free.
+/// - The route is resumed as soon as the section that contains the goal and the section straight ahead are free.
 /// - No path is chosen or kept that meets obstacles that have left the image, if another path avoids them.
+/// - On the way to the goal it descends only into space that its images have shown free.
 /// - There are other answers than a position in the direction of the section.
 /// - In front of a wide obstacle the vehicle searches to one side, then to the other, each time twice as far.
 /// - A vehicle that hovers at its goal stays at the position to which it gave way, as in [Perez2018] fig. 20.
@@ -28,8 +29,8 @@ class SectionPilot {
  public:
   explicit SectionPilot(const SectionGridConfig& config);
 
-  /// Starts a flight.
-  void reset(const SectionCamera& camera);
+  /// Starts a flight. @param radius_m  of the vehicle, >= 0.
+  void reset(const SectionCamera& camera, double radius_m);
 
   /// Returns the command after an image.
   Command update(const SectionView& view, const Goal& goal);
@@ -52,12 +53,14 @@ class SectionPilot {
   std::optional<cv::Point2d> pixel_of(const Eigen::Vector3d& p_W, const NavigationState& navigation) const;
   bool is_free(const Eigen::Vector3d& p_W, const SectionView& view) const;
   bool is_blocked(const Eigen::Vector3d& end_W, const SectionView& view) const;
+  Eigen::Vector3d descent_W(const Eigen::Vector3d& end_W, const SectionView& view);
   Command hover_and_yaw(const SectionView& view, const Goal& goal);
   void choose_side(double side, const NavigationState& navigation, const Goal& goal);
 
   Answer answer_;
   double keep_share_, lowest_m_;
   SectionCamera camera_;
+  double radius_m_ = 0.0;
   State state_ = State::cruise;
   TurnThenMove mover_;
   double turn_ = 1.0;                       ///< to the right
@@ -66,6 +69,7 @@ class SectionPilot {
   double away_ = 1.0;                       ///< evasion to the right of an obstacle that approaches the hover position
   std::optional<double> watched_rad_;       ///< heading to the last approaching obstacle
   std::optional<Sweep> sweep_;
+  std::optional<double> level_z_W_;  ///< altitude that is held while no descent is free
   bool flown_ = false;
 };
 

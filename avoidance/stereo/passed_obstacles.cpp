@@ -45,16 +45,17 @@ bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::stereo:
   return u >= first_u && u <= image.width - 1 && v >= 0 && v <= image.height - 1;
 }
 
-bool PassedObstacles::free(const Eigen::Vector3d& direction_W, double reach_m) const {
+bool PassedObstacles::free(const Eigen::Vector3d& direction_W, double reach_m, Among among) const {
   constexpr double kNoCloser = 0.9;
   const Eigen::Vector3d ahead = direction_W.normalized();
-  return std::ranges::none_of(hidden_, [&](const Point& point) {
+  const auto is_met = [&](const Point& point) {
     const Eigen::Vector3d p = point.p_WP - p_WC_;
     const double along_m = p.dot(ahead);
     const double aside_m = std::min(config_.radius_m, kNoCloser * p.norm());
     const double past_m = std::max(0.0, along_m - reach_m);
     return along_m > 0.0 && p.squaredNorm() - along_m * along_m + past_m * past_m < aside_m * aside_m;
-  });
+  };
+  return std::ranges::none_of(hidden_, is_met) && (among == Among::hidden || std::ranges::none_of(visible_, is_met));
 }
 
 std::vector<Eigen::Vector3d> PassedObstacles::points_W() const {

@@ -21,6 +21,8 @@ struct PassedObstaclesConfig {
 /// Not in the paper: the aircraft of [Andert2007] sec. 4.1 uses only its last image.
 class PassedObstacles {
  public:
+  enum class Among { hidden, all };
+
   explicit PassedObstacles(const PassedObstaclesConfig& config) : config_(config) {}
 
   /// Adds an image. @param X_WC  estimated pose of the camera that the pyramid belongs to. @param t_ns  time of the
@@ -30,8 +32,9 @@ class PassedObstacles {
 
   /// Returns whether a straight path from the camera along `direction_W` (any length above 0) keeps the distance
   /// `radius_m` from all remembered points. If an obstacle is closer already, it may come closer by a tenth.
-  /// @param reach_m  length of the path, >= 0.
-  bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity()) const;
+  /// @param reach_m  length of the path, >= 0. @param among  all: points in view count too.
+  bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity(),
+            Among among = Among::hidden) const;
 
   /// Remembered points that are out of view, in W, m.
   std::vector<Eigen::Vector3d> points_W() const;

@@ -97,6 +97,31 @@ TEST(SectionFlight, PassesRandomPillarsByMoreThanItsRadius) {
   }
 }
 
+// It flies over two hedges and descends to a goal close behind them. They are below the image while it is above them.
+TEST(SectionFlight, DoesNotDescendOntoObstaclesThatAreBelowItsImage) {
+  constexpr double kClearM = 0.5;
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> height_m(3.5, 5.5), deep_m(0.5, 3.0), gap_m(1.0, 6.0), beyond_m(6.0, 12.0);
+  for (int trial = 0; trial < 12; ++trial) {
+    constexpr double kEndM = 40.0, kFirstM = 12.0, kStartM = 7.0, kGoalM = 3.0;
+    SectionWorld world;
+    double north_m = kFirstM;
+    for (int hedge = 0; hedge < 2; ++hedge) {
+      const double to_m = north_m + deep_m(random);
+      world.boxes_W.push_back({Eigen::Vector3d(north_m, -kEndM, -height_m(random)), Eigen::Vector3d(to_m, kEndM, 0.0)});
+      north_m = to_m + gap_m(random);
+    }
+    world.start_W = {0.0, 0.0, -kStartM};
+    world.goal_W = {north_m + beyond_m(random), 0.0, -kGoalM};
+    world.speed_mps = 2.235;
+    SectionGridConfig config;
+    config.threshold_time_s = 4.5;
+    const SectionWorld::Flown flown = world.fly(config);
+    EXPECT_TRUE(flown.reached) << trial;
+    EXPECT_GT(flown.clearance_m, kVehicleRadiusM + kClearM) << trial;
+  }
+}
+
 // [Perez2018] fig. 20, from any bearing in the image; half of the obstacles then turn at a right angle to either side.
 TEST(SectionFlight, HoveringVehicleEvadesAnObstacleFromAnyBearingInView) {
   std::mt19937_64 random(3);

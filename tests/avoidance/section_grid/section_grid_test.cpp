@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "avoidance/section_grid/section_grid.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
@@ -15,10 +16,18 @@ constexpr double kThresholdM = 9.144;
 /// One depth camera, and a module that uses it to fly towards a goal far to the north.
 class Pilot {
  public:
-  explicit Pilot(SectionGridConfig config = {}) : module_(make_section_grid(with_camera(config))) {
+  enum class Mount { upright, on_its_side };
+  explicit Pilot(SectionGridConfig config = {}, Mount mount = Mount::upright)
+      : module_(make_section_grid(with_camera(config))) {
     Setup setup;
     MountedCamera camera = level_camera("depth", 0.0, kWidthPx, 12.5);
-    camera.model = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
+    vision::camera::PinholeCamera lens = vision::camera::PinholeCamera::from_fov(kWidthPx, kHeightPx, 1.48);
+    if (mount == Mount::on_its_side) {
+      camera.X_BC.linear() << 0, 0, 1, 0, -1, 0, 1, 0, 0;  // rows point down, columns to the left
+      std::swap(lens.width_px, lens.height_px);
+      std::swap(lens.center_u_px, lens.center_v_px);
+    }
+    camera.model = lens;
     setup.cameras = {camera};
     setup.limits = {5.0, 2.0, 1.0};
     module_->reset(setup);
@@ -51,6 +60,22 @@ cv::Mat near_between(int first_px, int last_px) {
 
 const PositionCommand& position(const Decision& decision) { return std::get<PositionCommand>(decision.command); }
 
+// The image of a camera on its side is the upright one, turned.
+TEST(SectionGridModule, CameraOnItsSideGivesTheDecisionsOfAnUprightOne) {
+  cv::Mat high = far();
+  high(cv::Rect(100, 0, 60, 60)).setTo(4.0);
+  for (const cv::Mat& upright_m : {far(), near_between(0, 80), near_between(80, kWidthPx), high}) {
+    cv::Mat mounted_m;
+    cv::rotate(upright_m, mounted_m, cv::ROTATE_90_COUNTERCLOCKWISE);
+    Pilot upright, on_its_side({}, Pilot::Mount::on_its_side);
+    const Decision a = upright.see(upright_m), b = on_its_side.see(mounted_m);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.signals, b.signals);
+    EXPECT_TRUE(position(a).p_WB.isApprox(position(b).p_WB, 1e-9));
+    EXPECT_NEAR(position(a).heading_rad, position(b).heading_rad, 1e-9);
+  }
+}
+
 TEST(SectionGridModule, ContinuesToTheGoalIfThePathIsFree) {
   Pilot pilot;
   const Decision decision = pilot.see(far());
@@ -81,6 +106,17 @@ TEST(SectionGridModule, ResumesTheRouteAsSoonAsTheGoalIsFree) {
   const double heading_rad = position(pilot.see(near_between(0, 80))).heading_rad;
   EXPECT_EQ(pilot.see(near_between(0, 30), {0.0, 0.0, -5.0}, heading_rad).status, "avoid");
   EXPECT_EQ(pilot.see(far(), {0.0, 0.0, -5.0}, heading_rad).status, "resume");
+}
+
+TEST(SectionGridModule, DoesNotResumeTheRouteWhileAnObstacleIsStraightAhead) {
+  Pilot pilot;
+  // The goal is 0.4 rad to the right of the heading, an obstacle a little to the left of it.
+  cv::Mat ahead = far();
+  ahead(cv::Rect(50, 35, 20, 20)).setTo(4.0);
+  const Eigen::Vector3d start(0.0, 0.0, -5.0);
+  EXPECT_EQ(pilot.see(ahead, start, -0.4).status, "avoid");
+  EXPECT_EQ(pilot.see(ahead, start, -0.4).status, "avoid");
+  EXPECT_EQ(pilot.see(far(), start, -0.4).status, "resume");
 }
 
 TEST(SectionGridModule, ResumesTheRouteAfterMovingAside) {
@@ -209,6 +245,19 @@ TEST(SectionGridModule, StaysAsideWhileAnObstacleOutOfViewBlocksThePathToTheGoal
     wall.colRange(0, 90).setTo(2.0);
     pilot.see(wall);
     EXPECT_EQ(pilot.see(far(), {0.0, 0.0, -5.0}, 0.5).status, remembers ? "avoid" : "resume");
+  }
+}
+
+TEST(SectionGridModule, StaysAsideWhileAnObstacleInViewIsCloserToThePathThanTheRadius) {
+  for (const double radius_m : {0.0, 0.4, 1.2}) {
+    SectionGridConfig config;
+    config.passed_radius_m = radius_m;
+    Pilot pilot(config);
+    pilot.see(near_between(0, 80));
+    // A wire 1.9 m ahead, 0.6 m above the path to the goal and above the middle section.
+    cv::Mat wire = far();
+    wire.rowRange(15, 19).setTo(1.9);
+    EXPECT_EQ(pilot.see(wire).status == "avoid", radius_m > 1.0) << radius_m;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace hedgehop::avoidance::stereo {
@@ -70,6 +71,15 @@ TEST(PassedObstacles, PathThatEndsInFrontOfAnObstacleIsFree) {
       EXPECT_EQ(passed.free(ahead, reach_m), nearest_m > 1.5) << reach_m;
     }
   }
+}
+
+TEST(PassedObstacles, ObstacleInViewCountsOnlyIfAllAreTested) {
+  constexpr double kAnyM = std::numeric_limits<double>::infinity();
+  PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
+  passed.update(0, block_at({76, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
+  EXPECT_TRUE(passed.free(towards(0.0)));
+  EXPECT_FALSE(passed.free(towards(0.0), kAnyM, PassedObstacles::Among::all));
+  EXPECT_TRUE(passed.free(towards(0.5), kAnyM, PassedObstacles::Among::all)) << "it passes at 2.9 m";
 }
 
 TEST(PassedObstacles, PointThatIsInViewAgainIsDeleted) {
