@@ -88,7 +88,7 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
 /// no descent is free. It therefore does not descend into an obstacle that it has climbed over and no longer sees.
 Eigen::Vector3d SectionPilot::descent_W(const Eigen::Vector3d& end_W, const SectionView& view) {
   constexpr double kLevelM = 0.5;  // of altitude: about the error of the estimate
-  constexpr double kClearM = 0.5;  // beside the hull
+  constexpr double kClearM = 0.5;  // from the hull
   const Eigen::Vector3d& p_WB = view.navigation.p_WB_est;
   const double down_m = end_W.z() - p_WB.z();
   if (down_m > kLevelM) {

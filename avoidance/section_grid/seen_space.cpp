@@ -23,7 +23,7 @@ void SeenSpace::update(int64_t t_ns, const vision::stereo::DepthPyramid& pyramid
   geometry_ = geometry;
   image_ = pyramid.image();
   while (!images_.empty() && seconds(t_ns - images_.front().t_ns) > kKeepS) images_.pop_front();
-  // The newest image is always available; it stays only if it is late enough after the one before.
+  // The newest image is always available. It stays only if the interval to the image before it is long enough.
   const size_t n = images_.size();
   if (n >= 2 && seconds(images_[n - 1].t_ns - images_[n - 2].t_ns) < kEveryS) images_.pop_back();
   images_.push_back({t_ns, X_WC.inverse(), pyramid.level(kBlockLevel).clone()});

@@ -10,8 +10,8 @@
 
 namespace hedgehop::avoidance::section_grid {
 
-/// Remembers what recent depth images have shown to be free, also after it has left the image: for example the space
-/// below and behind an obstacle that the vehicle has climbed over. Not in the paper.
+/// Remembers the space that recent depth images have shown to be free, also after it has left the image, such as the
+/// space below and behind an obstacle that the vehicle has climbed over. Not in the paper.
 class SeenSpace {
  public:
   /// Forgets everything.

@@ -77,7 +77,7 @@ TEST(SeenSpace, PathIsFreeIfItKeepsTheRadiusFromAnObstacle) {
   vision::stereo::DepthPyramid pyramid;
   pyramid.build(disparity16, SeenSpace::kBlockLevel);
   SeenSpace seen;
-  for (int i = 0; i < 8; ++i) {  // the way in, so that space beside the start has been in view
+  for (int i = 0; i < 8; ++i) {  // the way in, which has the space around the start in view
     seen.update(i * kSecondNs, all_at(0.0), kGeometry, at({-8.0 + i, 0.0, -8.0}));
   }
   seen.update(8 * kSecondNs, pyramid, kGeometry, at({0.0, 0.0, -8.0}));

@@ -24,7 +24,7 @@ cv::Point pixel_of(const Eigen::Vector3d& p_B, const SectionCamera& camera) {
           static_cast<int>(std::lround(g.center_v_px + g.focal_px * p_C.y() / p_C.z()))};
 }
 
-// A point of the body is drawn with the mounted camera and must be found where the upright camera has it.
+// A point of the body is drawn by the mounted camera. After the turn it must be at its pixel of the upright camera.
 TEST(UprightView, PointOfTheBodyIsAtThePixelOfTheUprightCamera) {
   const Eigen::Vector3d p_B(10.0, 1.0, 1.6);  // ahead, to the right and below
   for (const double roll_deg : {0.0, 20.0, 90.0, 110.0, 180.0, -90.0, -70.0}) {
