@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "avoidance/flow_balance/approach_limit.h"
 #include "avoidance/flow_balance/balance_law.h"
 #include "avoidance/flow_balance/modified_balance.h"
 #include "avoidance/flow_balance/ranging.h"
@@ -32,8 +33,9 @@ class FlowBalance final : public Module {
   void do_reset(const Setup& setup) override {
     cameras_.emplace(setup, config_.flow, /*derotate=*/!is_published());
     ranging_.emplace(kCityPatches);
-    ring_ = {};
+    ring_.emplace(RangeRing::Options{config_.memory_s, config_.release_s});
     detour_.emplace(config_.patience_s);
+    radius_m_ = setup.limits.radius_m;
     v_cmd_W_.reset();
     v_tgt_W_.setZero();
     heading_rad_ = 0.0;
@@ -66,9 +68,9 @@ class FlowBalance final : public Module {
   void update_ring(const Observation& observation) {
     const NavigationState& navigation = observation.navigation;
     ranging_->update(*cameras_, navigation);
-    ring_.carry((navigation.q_WB_est * navigation.v_WB_B_est).head<2>(), observation.t_ns);
+    ring_->carry((navigation.q_WB_est * navigation.v_WB_B_est).head<2>(), observation.t_ns);
     for (size_t side = 0; side < kSideCount; ++side) {
-      if (cameras_->fresh(side)) ring_.add(ranging_->columns(side), heading_rad_);
+      if (cameras_->fresh(side)) ring_->add(ranging_->columns(side), heading_rad_, cameras_->measure(side)->dt_s);
     }
   }
 
@@ -80,16 +82,22 @@ class FlowBalance final : public Module {
     return rotated(normalized_command(rotated(v_tgt_W_, -heading_rad_), push_H, v_tgt_W_.norm()), heading_rad_);
   }
 
-  /// Returns the command with the push of the nearest obstacles in all directions and with detours, in W, m/s.
+  /// Returns the command with the push of the nearest obstacles in all directions, with detours and with a limited
+  /// approach, in W, m/s.
   Eigen::Vector2d modified_command(const Eigen::Vector2d& p_BG_W, int64_t t_ns) {
     const double aside_rad = detour_->update(p_BG_W.norm(), seconds(t_ns));
     const Eigen::Vector2d aim_W = rotated(p_BG_W, config_.spiral_angle_rad + aside_rad);
     v_tgt_W_ = velocity_to_goal(aim_W, config_.speed_mps, config_.slow_radius_m);
     // The direction is computed at full speed, so that walls do not outweigh a near goal.
     const Eigen::Vector2d full_W = velocity_to_goal(aim_W, config_.speed_mps, 0.0);
+    const std::vector<Eigen::Vector2d> obstacles_W = ring_->obstacles_W();
     const Eigen::Vector2d push_W =
-        push_from_obstacles(ring_.obstacles_W(), aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);
-    return normalized_command(full_W, push_W, v_tgt_W_.norm());
+        push_from_obstacles(obstacles_W, aim_W, config_.loom_gain_m2ps + config_.flow_gain_m2ps);
+    const Eigen::Vector2d v_W = normalized_command(full_W, push_W, v_tgt_W_.norm());
+    if (config_.clearance_m <= 0.0) return v_W;
+    return limited_approach(v_W, confirmed_obstacles(obstacles_W),
+                            {radius_m_ + config_.clearance_m, config_.braking_mps2, config_.reaction_s},
+                            config_.speed_mps);
   }
 
   Eigen::Vector2d filtered(const Eigen::Vector2d& v_W, int64_t t_ns) const {
@@ -112,12 +120,13 @@ class FlowBalance final : public Module {
   FlowBalanceConfig config_;
   std::optional<SideCameras> cameras_;
   std::optional<PatchRanging> ranging_;
-  RangeRing ring_;
+  std::optional<RangeRing> ring_;
   std::optional<Detour> detour_;
   Eigen::Vector2d v_tgt_W_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> v_cmd_W_;
   int64_t last_t_ns_ = 0;
   double heading_rad_ = 0.0;
+  double radius_m_ = 0.0;
   int decisions_ = 0, avoiding_ = 0;
 };
 

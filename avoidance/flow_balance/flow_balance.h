@@ -12,7 +12,7 @@ namespace hedgehop::avoidance::flow_balance {
 
 /// Flies to a goal and keeps away from walls, with the optic flow of cameras that look forward, aft, left and right.
 /// Source: [Garratt2009] sec. 4.1, eq. (4): balance_law.h. The additions of the modified law: PatchRanging,
-/// modified_balance.h.
+/// modified_balance.h, approach_limit.h.
 struct FlowBalanceConfig {
   static constexpr std::string_view kName = "flow_balance";
   static constexpr std::string_view kMeaning =
@@ -27,6 +27,11 @@ struct FlowBalanceConfig {
   double slow_radius_m = 4.0;
   double patience_s = 0.0;
   double command_time_constant_s = 0.0;
+  double memory_s = 4.0;
+  double release_s = 0.0;
+  double clearance_m = 0.0;
+  double braking_mps2 = 0.4;
+  double reaction_s = 1.0;
 };
 
 template <class Visitor>
@@ -51,12 +56,31 @@ void describe(Visitor& v, fields::ConfigOf<FlowBalanceConfig> auto& c) {
   v("patience", c.patience_s,
     {.unit = "s",
      .at_least = 0.0,
-     .meaning = "modified law: time without progress to the goal after which the aim turns aside by 70 deg for 12 s; 0 "
-                "disables this"});
+     .meaning =
+         "modified law: time without progress to the goal after which the aim turns aside by 70 deg for 12 s, and "
+         "for up to 96 s if that does not help; 0 disables this"});
   v("command_time_constant", c.command_time_constant_s,
     {.unit = "s",
      .at_least = 0.0,
      .meaning = "modified law: time constant of the low-pass filter of the commanded velocity; 0 disables the filter"});
+  v("memory", c.memory_s,
+    {.unit = "s",
+     .above = 0.0,
+     .meaning = "modified law: time for which an obstacle is remembered in a direction without sufficient flow"});
+  v("release", c.release_s,
+    {.unit = "s",
+     .at_least = 0.0,
+     .meaning = "modified law: time constant with which a remembered obstacle recedes if its direction is measured to "
+                "be free or farther; 0: at once"});
+  v("clearance", c.clearance_m,
+    {.unit = "m",
+     .at_least = 0.0,
+     .meaning = "modified law: distance between the vehicle's cylinder and an obstacle at which the approach ends; 0: "
+                "the speed is not limited"});
+  v("braking", c.braking_mps2,
+    {.unit = "m/s^2", .above = 0.0, .meaning = "modified law: deceleration before an obstacle"});
+  v("reaction", c.reaction_s,
+    {.unit = "s", .at_least = 0.0, .meaning = "modified law: time before the vehicle decelerates"});
 }
 
 /// Throws std::invalid_argument if a value is out of range.

@@ -23,19 +23,37 @@ void RangeRing::keep_nearer(const RingPoint& point) {
 void RangeRing::carry(const Eigen::Vector2d& v_WB_W, int64_t t_ns) {
   const Eigen::Vector2d moved_W = seconds(t_ns - now_ns_) * v_WB_W;
   now_ns_ = t_ns;
+  const int64_t memory_ns = std::llround(options_.memory_s * 1e9);
   const auto before = points_;
   points_.fill(std::nullopt);
   for (const std::optional<RingPoint>& point : before) {
-    if (point && t_ns - point->seen_ns <= kKeepNs) keep_nearer({point->p_BP_W - moved_W, point->seen_ns});
+    if (point && t_ns - point->seen_ns <= memory_ns) keep_nearer({point->p_BP_W - moved_W, point->seen_ns});
   }
 }
 
-void RangeRing::add(const std::vector<RangeColumn>& columns, double heading_rad) {
+void RangeRing::release(std::optional<RingPoint>& point, double inverse_range_per_m, double share) const {
+  if (!point) return;
+  if (share >= 1.0) {
+    point.reset();
+    return;
+  }
+  const double held_per_m = 1.0 / point->p_BP_W.norm();
+  const double released_per_m = held_per_m + share * (inverse_range_per_m - held_per_m);
+  if (released_per_m >= held_per_m) return;
+  if (released_per_m * kFarM <= 1.0) {
+    point.reset();
+    return;
+  }
+  point->p_BP_W *= held_per_m / released_per_m;
+  if (inverse_range_per_m * kFarM > 1.0) point->seen_ns = now_ns_;
+}
+
+void RangeRing::add(const std::vector<RangeColumn>& columns, double heading_rad, double dt_s) {
   constexpr double kMinWeight = 0.5;  // below this weight, a missing range does not mean free space
-  constexpr double kFarM = 40.0;      // farther obstacles do not push
+  const double share = options_.release_s > 0.0 ? 1.0 - std::exp(-dt_s / options_.release_s) : 1.0;
   for (const RangeColumn& column : columns) {
     const Eigen::Vector2d direction_W = rotated(column.direction_H, heading_rad);
-    if (column.weight >= kMinWeight) points_[sector_of(direction_W)].reset();
+    if (column.weight >= kMinWeight) release(points_[sector_of(direction_W)], column.inverse_range_per_m, share);
     if (column.inverse_range_per_m * kFarM > 1.0) keep_nearer({direction_W / column.inverse_range_per_m, now_ns_});
   }
 }
@@ -80,13 +98,15 @@ double Detour::update(double goal_distance_m, double t_s) {
   if (goal_distance_m < nearest_m_ - kProgressM) {
     nearest_m_ = goal_distance_m;
     progress_s_ = t_s;
+    fruitless_ = 0;
   }
   if (t_s < until_s_) return side_ * kAngleRad;
   if (t_s - progress_s_ < patience_s_) return 0.0;
   side_ = -side_;
-  until_s_ = t_s + kDurationS;
+  until_s_ = t_s + std::ldexp(kDurationS, std::min(fruitless_ / 2, kMaxDoublings));
   progress_s_ = until_s_;
   ++count_;
+  ++fruitless_;
   return side_ * kAngleRad;
 }
 

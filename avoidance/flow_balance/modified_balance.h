@@ -19,28 +19,37 @@ namespace hedgehop::avoidance::flow_balance {
 /// [Garratt2009] sec. 4.1 reports at 45 degrees. Not in the paper.
 class RangeRing {
  public:
-  /// Lifetime of a point: twice the time in which a point 8 m away passes a blind spot at 2 m/s.
-  static constexpr int64_t kKeepNs = 4'000'000'000;
+  struct Options {
+    double memory_s = 4.0;   ///< lifetime of a point without a measurement in its direction, > 0
+    double release_s = 0.0;  ///< time constant with which the inverse range of a point decreases to a smaller
+                             ///< measurement, >= 0; 0: at once
+  };
+  explicit RangeRing(const Options& options) : options_(options) {}
 
   /// Moves the points to a new time. @param v_WB_W  estimated velocity since the last call, m/s. @param t_ns
   /// increasing.
   void carry(const Eigen::Vector2d& v_WB_W, int64_t t_ns);
-  /// Adds the current measurements of the columns of a camera. A column with sufficient parallax replaces the points in
-  /// its direction; any other column adds to them. @param heading_rad  estimated.
-  void add(const std::vector<RangeColumn>& columns, double heading_rad);
+  /// Adds the current measurements of the columns of a camera. A nearer obstacle replaces the point in its direction at
+  /// once, a farther one or none gradually, and only if the column has sufficient parallax.
+  /// @param heading_rad  estimated. @param dt_s  time since the last image of the camera, > 0.
+  void add(const std::vector<RangeColumn>& columns, double heading_rad, double dt_s);
 
   /// Nearest known point of each sector of 5 degrees, from the vehicle, in W, m.
   std::vector<Eigen::Vector2d> obstacles_W() const;
 
  private:
   static constexpr int kSectors = 72;
+  static constexpr double kFarM = 40.0;  ///< farther obstacles do not push
   struct RingPoint {
     Eigen::Vector2d p_BP_W;
     int64_t seen_ns;
   };
   static size_t sector_of(const Eigen::Vector2d& direction_W);
   void keep_nearer(const RingPoint& point);
+  /// Moves the point in the direction of a column toward its measurement.  @param share  of the difference, 0 to 1.
+  void release(std::optional<RingPoint>& point, double inverse_range_per_m, double share) const;
 
+  Options options_;
   std::array<std::optional<RingPoint>, kSectors> points_;
   int64_t now_ns_ = 0;
 };
@@ -61,12 +70,14 @@ Eigen::Vector2d low_pass(const Eigen::Vector2d& v_last_W, const Eigen::Vector2d&
                          double time_constant_s);
 
 /// Leaves limit cycles. If the vehicle has made no progress to its goal for some time, the aim is rotated aside for
-/// some time: first to the right and, if that did not help, to the left. Not in the paper; [Garratt2009] sec. 4.1 aims
-/// aside permanently for the same purpose.
+/// some time: first to the right and, if that did not help, to the left. If neither helped, the next detours last twice
+/// as long, because shorter ways have been tried. Not in the paper; [Garratt2009] sec. 4.1 aims aside permanently for
+/// the same purpose.
 class Detour {
  public:
   static constexpr double kAngleRad = 70.0 * std::numbers::pi / 180.0;  ///< almost along the face of a building
-  static constexpr double kDurationS = 12.0;                            ///< time to pass a building of 20 m at 2 m/s
+  static constexpr double kDurationS = 12.0;  ///< of the first detours: time to pass a building of 20 m at 2 m/s
+  static constexpr int kMaxDoublings = 3;     ///< 96 s, more than the width of a city of 150 m
 
   /// @param patience_s  time without progress before a detour, >= 0; 0 disables detours.
   explicit Detour(double patience_s) : patience_s_(patience_s) {}
@@ -84,6 +95,7 @@ class Detour {
   double until_s_ = 0.0;     ///< end of the current detour
   double side_ = -1.0;
   int count_ = 0;
+  int fruitless_ = 0;  ///< detours since the last progress
 };
 
 }  // namespace hedgehop::avoidance::flow_balance

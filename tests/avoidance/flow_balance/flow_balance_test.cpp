@@ -15,14 +15,14 @@ namespace {
 
 using std::numbers::pi;
 
-FlowBalanceConfig small_images() {
+FlowBalanceConfig with_small_images() {
   FlowBalanceConfig config;
   config.flow = {.rows = 6, .cols = 6, .patch_px = 24, .margin_px = 6};
   return config;
 }
 
 FlowBalanceConfig as_published() {
-  FlowBalanceConfig config = small_images();
+  FlowBalanceConfig config = with_small_images();
   config.law = Law::published;
   return config;
 }
@@ -54,7 +54,7 @@ VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& 
 class BothLaws : public testing::TestWithParam<Law> {
  protected:
   static FlowBalanceConfig config() {
-    FlowBalanceConfig config = small_images();
+    FlowBalanceConfig config = with_small_images();
     config.law = GetParam();
     return config;
   }
@@ -104,13 +104,13 @@ TEST(FlowBalance, DeceleratesNearTheGoalInsteadOfCirclingIt) {
   for (const double distance : {3.0, 1.0, 0.2}) {
     const Eigen::Vector2d flown = Eigen::Vector2d(0.3, 0.2) * 0.08;  // the position of the third image
     const VelocityCommand command =
-        command_in_flight(small_images(), walls, 0.0, {0.3, 0.2}, {{flown.x() + distance, flown.y(), -5}, 0.0});
+        command_in_flight(with_small_images(), walls, 0.0, {0.3, 0.2}, {{flown.x() + distance, flown.y(), -5}, 0.0});
     EXPECT_NEAR(command.v_WB_W.norm(), 2.0 * distance / 4.0, 1e-9);
   }
 }
 
 TEST(FlowBalance, SpiralAngleAimsRightOfTheGoal) {
-  FlowBalanceConfig config = small_images();
+  FlowBalanceConfig config = with_small_images();
   config.spiral_angle_rad = 0.3;
   const VelocityCommand command = command_in_flight(config, {}, 0.0, {1, 0}, {{100, 0, -5}, 0.0});
   // The vehicle has flown 0.08 m in between.
@@ -118,7 +118,7 @@ TEST(FlowBalance, SpiralAngleAimsRightOfTheGoal) {
 }
 
 TEST(FlowBalance, CommandFilterKeepsItsShareOfTheOldCommand) {
-  FlowBalanceConfig plain = small_images(), filtered = plain;
+  FlowBalanceConfig plain = with_small_images(), filtered = plain;
   filtered.command_time_constant_s = 1e9;
   const Walls walls = {wall(0, 4, -0.5 * pi)};
   const Goal goal{{100, 0, -5}, 0.0};
@@ -136,8 +136,8 @@ TEST(FlowBalance, FlowOfATurnAffectsOnlyThePublishedLaw) {
     const auto still = command_in_flight(config, walls, 0.0, v, goal).v_WB_W;
     return (command_in_flight(config, walls, 0.0, v, goal, w).v_WB_W - still).norm();
   };
-  EXPECT_LT(change(small_images()), 0.25);  // an eighth of the speed
-  EXPECT_GT(change(as_published()), 3.0 * change(small_images()));
+  EXPECT_LT(change(with_small_images()), 0.25);  // an eighth of the speed
+  EXPECT_GT(change(as_published()), 3.0 * change(with_small_images()));
 }
 
 TEST(FlowBalance, PassesABuildingOnItsPath) {
@@ -147,17 +147,34 @@ TEST(FlowBalance, PassesABuildingOnItsPath) {
     return std::hypot(std::max(north, 0.0), std::max(east, 0.0)) + std::min(std::max(north, east), 0.0);
   };
   const Goal goal{{36, 1.5, -1}, 0.0};
-  const PointFlight flight = fly(*make_flow_balance(small_images()), building, 0.0, goal, {0, -1.0}, 40.0, clearance);
+  const PointFlight flight =
+      fly(*make_flow_balance(with_small_images()), building, 0.0, goal, {0, -1.0}, 40.0, clearance);
   EXPECT_GT(flight.least_clearance_m, 0.5);
   EXPECT_LT((flight.path.back() - goal.p_WG.head<2>()).norm(), 2.0);
   // The control run, with zero gains, flies through it.
-  FlowBalanceConfig blind = small_images();
+  FlowBalanceConfig blind = with_small_images();
   blind.loom_gain_m2ps = blind.flow_gain_m2ps = 0.0;
   EXPECT_LT(fly(*make_flow_balance(blind), building, 0.0, goal, {0, -1.0}, 9.0, clearance).least_clearance_m, 0.0);
 }
 
+TEST(FlowBalance, DoesNotFlyFasterTowardAWallThanItCanStop) {
+  // The push is zero, so only the limit of the approach remains: v t + v^2 / (2 a) is the distance left.
+  FlowBalanceConfig config = with_small_images();
+  config.loom_gain_m2ps = config.flow_gain_m2ps = 0.0;
+  config.clearance_m = 1.5;
+  const Eigen::Vector2d v_W(1.2, 0.8);
+  const double wall_m = 5.0, flown_m = 0.08 * v_W.x();
+  const VelocityCommand command = command_in_flight(config, {wall(wall_m, 0, pi)}, 0.0, v_W, {{100, 0, -5}, 0.0});
+  const double v = command.v_WB_W.x(), radius_m = 1.0;  // of four_cameras()
+  const double stop_m = v * config.reaction_s + v * v / (2.0 * config.braking_mps2);
+  EXPECT_GT(v, 0.3);
+  EXPECT_NEAR(stop_m, wall_m - flown_m - radius_m - config.clearance_m, 0.6);  // flow errs by 15 % of the range
+  config.clearance_m = 0.0;
+  EXPECT_NEAR(command_in_flight(config, {wall(wall_m, 0, pi)}, 0.0, v_W, {{100, 0, -5}, 0.0}).v_WB_W.x(), 2.0, 1e-2);
+}
+
 TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
-  const auto module = make_flow_balance(small_images());
+  const auto module = make_flow_balance(with_small_images());
   const avoidance::Setup setup = four_cameras(kSizePx, 25.0);
   module->reset(setup);
   EXPECT_TRUE(module->annotate().empty());
@@ -172,7 +189,7 @@ TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {
 
 TEST(FlowBalance, RejectsConfigsOutOfRangeAndPatchesThatDoNotFit) {
   const auto refuse = [](auto change) {
-    FlowBalanceConfig config = small_images();
+    FlowBalanceConfig config = with_small_images();
     change(config);
     EXPECT_THROW(make_flow_balance(config), std::invalid_argument);
   };
@@ -182,8 +199,13 @@ TEST(FlowBalance, RejectsConfigsOutOfRangeAndPatchesThatDoNotFit) {
   refuse([](auto& c) { c.spiral_angle_rad = 1.1; });
   refuse([](auto& c) { c.command_time_constant_s = -0.1; });
   refuse([](auto& c) { c.patience_s = -1.0; });
+  refuse([](auto& c) { c.memory_s = 0.0; });
+  refuse([](auto& c) { c.release_s = -0.1; });
+  refuse([](auto& c) { c.clearance_m = -0.1; });
+  refuse([](auto& c) { c.braking_mps2 = 0.0; });
+  refuse([](auto& c) { c.reaction_s = -0.1; });
   refuse([](auto& c) { c.flow.rows = 0; });
-  FlowBalanceConfig large = small_images();
+  FlowBalanceConfig large = with_small_images();
   large.flow.patch_px = 128;
   const auto module = make_flow_balance(large);
   EXPECT_THROW(module->reset(four_cameras(kSizePx, 25.0)), std::invalid_argument);

@@ -20,6 +20,7 @@ using Eigen::Vector2d;
 
 constexpr int64_t kTenthNs = 100'000'000;
 constexpr double kTenthS = 0.1;
+constexpr RangeRing::Options kRing{.memory_s = 4.0, .release_s = 0.3};
 
 Vector2d nearest(const std::vector<Vector2d>& obstacles_W) {
   return *std::ranges::min_element(obstacles_W, {}, [](const Vector2d& p) { return p.norm(); });
@@ -34,9 +35,9 @@ TEST(RangeRing, MovesAPointOutOfViewWithTheMotionOfTheVehicle) {
   std::uniform_real_distribution<double> meters(-20.0, 20.0), mps(-3.0, 3.0);
   for (int trial = 0; trial < 50; ++trial) {
     const Vector2d p_WP(meters(random), meters(random));
-    RangeRing ring;
+    RangeRing ring(kRing);
     ring.carry({0.0, 0.0}, 0);
-    ring.add({column_at(p_WP)}, 0.0);
+    ring.add({column_at(p_WP)}, 0.0, kTenthS);
     Vector2d p_WB(0.0, 0.0);
     for (int step = 1; step <= 20; ++step) {
       const Vector2d v_W(mps(random), mps(random));
@@ -49,33 +50,98 @@ TEST(RangeRing, MovesAPointOutOfViewWithTheMotionOfTheVehicle) {
 }
 
 TEST(RangeRing, DeletesAnOldPoint) {
-  RangeRing ring;
+  RangeRing ring(kRing);
   ring.carry({0.0, 0.0}, 0);
-  ring.add({column_at({5.0, 0.0})}, 0.0);
-  ring.carry({0.0, 0.0}, RangeRing::kKeepNs);
+  ring.add({column_at({5.0, 0.0})}, 0.0, kTenthS);
+  ring.carry({0.0, 0.0}, 4'000'000'000);
   EXPECT_EQ(ring.obstacles_W().size(), 1u);
-  ring.carry({0.0, 0.0}, RangeRing::kKeepNs + 1);
+  ring.carry({0.0, 0.0}, 4'000'000'001);
   EXPECT_TRUE(ring.obstacles_W().empty());
 }
 
-TEST(RangeRing, AcceptsAColumnWithParallaxAndDoesNotTrustOneWithout) {
-  RangeRing ring;
+RangeColumn nothing_ahead(double weight) {
+  return {.direction_H = {1.0, 0.0}, .inverse_range_per_m = 0.0, .weight = weight};
+}
+
+TEST(RangeRing, DoesNotReleaseAPointWithoutParallax) {
+  RangeRing ring(kRing);
   ring.carry({0.0, 0.0}, 0);
-  ring.add({column_at({5.0, 0.0})}, 0.0);
-  ring.add({{.direction_H = {1.0, 0.0}, .inverse_range_per_m = 0.0, .weight = 0.1}}, 0.0);
+  ring.add({column_at({5.0, 0.0})}, 0.0, kTenthS);
+  for (int i = 0; i < 100; ++i) {
+    ring.add({nothing_ahead(/*weight=*/0.1)}, 0.0, kTenthS);
+    ring.add({column_at({9.0, 0.0}, /*weight=*/0.1)}, 0.0, kTenthS);
+  }
   ASSERT_EQ(ring.obstacles_W().size(), 1u) << "no parallax: a missing range is no free space";
-  ring.add({column_at({9.0, 0.0}, /*weight=*/0.1)}, 0.0);
   EXPECT_DOUBLE_EQ(nearest(ring.obstacles_W()).norm(), 5.0);
-  ring.add({column_at({9.0, 0.0})}, 0.0);
+}
+
+TEST(RangeRing, AcceptsANearerObstacleAtOnceAndReleasesItExponentially) {
+  RangeRing ring(kRing);
+  ring.carry({0.0, 0.0}, 0);
+  ring.add({column_at({9.0, 0.0})}, 0.0, kTenthS);
+  ring.add({column_at({5.0, 0.0})}, 0.0, kTenthS);
+  EXPECT_DOUBLE_EQ(nearest(ring.obstacles_W()).norm(), 5.0);
+  for (int i = 1; i <= 10; ++i) {
+    ring.add({column_at({9.0, 0.0})}, 0.0, kTenthS);
+    const double expected_per_m = 1.0 / 9.0 + (1.0 / 5.0 - 1.0 / 9.0) * std::exp(-i * kTenthS / kRing.release_s);
+    EXPECT_NEAR(1.0 / nearest(ring.obstacles_W()).norm(), expected_per_m, 1e-12) << i;
+  }
+}
+
+TEST(RangeRing, WithoutReleaseTimeTheLastMeasurementCounts) {
+  RangeRing ring({.memory_s = 4.0, .release_s = 0.0});
+  ring.carry({0.0, 0.0}, 0);
+  ring.add({column_at({5.0, 0.0})}, 0.0, kTenthS);
+  ring.add({column_at({9.0, 0.0})}, 0.0, kTenthS);
   EXPECT_DOUBLE_EQ(nearest(ring.obstacles_W()).norm(), 9.0);
-  ring.add({{.direction_H = {1.0, 0.0}, .inverse_range_per_m = 0.0, .weight = 1.0}}, 0.0);
+  ring.add({nothing_ahead(/*weight=*/1.0)}, 0.0, kTenthS);
   EXPECT_TRUE(ring.obstacles_W().empty());
+}
+
+TEST(RangeRing, OneWrongImageDoesNotDeleteABuildingButLastingFreeSpaceDoes) {
+  RangeRing ring(kRing);
+  ring.carry({0.0, 0.0}, 0);
+  ring.add({column_at({5.0, 0.0})}, 0.0, kTenthS);
+  ring.add({nothing_ahead(/*weight=*/1.0)}, 0.0, 0.04);
+  ASSERT_EQ(ring.obstacles_W().size(), 1u);
+  EXPECT_LT(nearest(ring.obstacles_W()).norm(), 6.0);
+  for (int i = 0; i < 20; ++i) ring.add({nothing_ahead(/*weight=*/1.0)}, 0.0, 0.04);
+  EXPECT_TRUE(ring.obstacles_W().empty()) << "0.84 s without the building";
+}
+
+// A corner leaves the view of the left camera (patches of 10 degrees up to a bearing of -50 degrees) and enters that of
+// the front camera at -40 degrees. The oracle is the closed form of its position.
+TEST(RangeRing, HoldsACornerThatPassesThroughTheGapBetweenTwoCameras) {
+  constexpr double kDegree = M_PI / 180.0, kHalfPatchRad = 5.0 * kDegree;
+  const Vector2d p_WP(4.0, -7.0), v_W(-0.2, -1.2);
+  const double patch_error_m = 2.0 * kHalfPatchRad * p_WP.norm();
+  RangeRing ring(kRing);
+  int images_in_gap = 0;
+  for (int step = 0; step <= 30; ++step) {
+    const Vector2d p_BP_W = p_WP - step * kTenthS * v_W;
+    const double bearing_rad = std::atan2(p_BP_W.y(), p_BP_W.x());
+    std::vector<RangeColumn> columns;
+    for (int degrees = -125; degrees <= 35; degrees += 5) {
+      if (degrees > -55 && degrees < -35) continue;
+      const double patch_rad = degrees * kDegree;
+      const bool sees_corner = std::abs(patch_rad - bearing_rad) <= kHalfPatchRad;
+      columns.push_back({{std::cos(patch_rad), std::sin(patch_rad)}, sees_corner ? 1.0 / p_BP_W.norm() : 0.0, 1.0});
+    }
+    ring.carry(v_W, step * kTenthNs);
+    ring.add(columns, 0.0, kTenthS);
+    images_in_gap += bearing_rad > -50.0 * kDegree && bearing_rad < -40.0 * kDegree;
+    const auto obstacles_W = ring.obstacles_W();
+    EXPECT_TRUE(
+        std::ranges::any_of(obstacles_W, [&](const Vector2d& p) { return (p - p_BP_W).norm() <= patch_error_m; }))
+        << "bearing " << bearing_rad / kDegree;
+  }
+  EXPECT_GT(images_in_gap, 8);
 }
 
 TEST(RangeRing, RotatesColumnsByTheHeading) {
-  RangeRing ring;
+  RangeRing ring(kRing);
   ring.carry({0.0, 0.0}, 0);
-  ring.add({column_at({0.0, 6.0})}, M_PI / 4);  // right of a nose that points north-east
+  ring.add({column_at({0.0, 6.0})}, M_PI / 4, kTenthS);  // right of a nose that points north-east
   EXPECT_LT((nearest(ring.obstacles_W()) - 6.0 * Vector2d(-std::sqrt(0.5), std::sqrt(0.5))).norm(), 1e-12);
 }
 
@@ -132,13 +198,26 @@ TEST(Detour, DoesNotChangeTheAimDuringSteadyProgress) {
 
 TEST(Detour, AimsAsideWithoutProgressAndThenToTheOtherSide) {
   Detour detour(kPatienceS);
-  for (int t = 0; t < 100; ++t) {
-    // 20 s of patience, 12 s to the right, 20 s of patience, 12 s to the left ...
+  for (int t = 0; t < 2 * kPeriodS; ++t) {
+    // 20 s of patience, 12 s to the right, 20 s of patience, 12 s to the left
     const double side = t / kPeriodS % 2 == 0 ? 1.0 : -1.0;
     const double expected = t % kPeriodS < kPatienceS ? 0.0 : side * Detour::kAngleRad;
     EXPECT_EQ(detour.update(100.0 + (t % 2), t), expected) << t;
   }
-  EXPECT_EQ(detour.count(), 3);
+  EXPECT_EQ(detour.count(), 2);
+}
+
+TEST(Detour, DoublesDetoursUntilThereIsProgress) {
+  Detour detour(kPatienceS);
+  auto duration_s = [&, t = 0, distance_m = 100.0](bool progress) mutable {
+    if (progress) distance_m -= 10.0;
+    while (detour.update(distance_m, t) == 0.0) ++t;
+    const int begin = t;
+    while (detour.update(distance_m, t) != 0.0) ++t;
+    return t - begin;
+  };
+  for (const int expected : {12, 12, 24, 24, 48, 48, 96, 96, 96}) EXPECT_EQ(duration_s(false), expected);
+  EXPECT_EQ(duration_s(true), 12);
 }
 
 TEST(Detour, SmallApproachInALimitCycleIsNoProgress) {
