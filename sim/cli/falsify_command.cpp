@@ -87,15 +87,14 @@ class FalsifyRun {
     write_file_whole(out_ / "falsify.csv", table.csv());
     write_sqlite(out_ / "falsify.sqlite", table);
     write_file_whole(out_ / "falsify.json", falsify_json(search_, result, {}));
+    std::optional<CompetitionSuite> suite;
     std::vector<Counterexample> found;
-    while (!result.stopped && found.size() < result.failures.size()) {
-      progress_.emplace(static_cast<size_t>(search_.config.design.shrinking) + kConfirmingFlights);
-      auto next = keep_counterexample(search_, file_, result, found.size() + 1, out_,
-                                      {.plain = [&](const Order& order) { return fly_one(order, false); },
-                                       .with_report = [&](const Order& order) { return fly_one(order, true); }});
-      if (!next) break;
-      found.push_back(std::move(*next));
-      write_file_whole(out_ / "falsify.json", falsify_json(search_, result, found));
+    if (!result.stopped) {
+      if (search_.config.score == FalsifyScore::sbft) {
+        suite = score(result);
+      } else {
+        found = keep(result);
+      }
     }
     progress_->close();
     if (interruption_.signal() != 0) return kSignalled + interruption_.signal();
@@ -104,10 +103,35 @@ class FalsifyRun {
     } catch (const PagesAbsent& absent) {
       notice(fmt::format("{}\n", absent.what()));
     }
-    return conclude(result, found);
+    return suite ? conclude(result, *suite) : conclude(result, found);
   }
 
  private:
+  /// Flies and stores the tests of the competition. @return nullopt if interrupted.
+  std::optional<CompetitionSuite> score(const FalsifyResult& result) {
+    progress_.emplace(suite_candidates(result) * kRunsOfTest);
+    auto suite = fly_suite(search_, result, [&](const std::vector<Order>& orders) { return fly(orders, false); });
+    if (!suite) return {};
+    write_tests(file_, out_, *suite);
+    write_file_whole(out_ / "falsify.json", falsify_json(search_, result, {}, &*suite));
+    return suite;
+  }
+
+  /// Confirms, shrinks and stores the failures. @return as many as were completed before an interruption.
+  std::vector<Counterexample> keep(const FalsifyResult& result) {
+    std::vector<Counterexample> found;
+    while (found.size() < result.failures.size()) {
+      progress_.emplace(static_cast<size_t>(search_.config.design.shrinking) + kConfirmingFlights);
+      auto next = keep_counterexample(search_, file_, result, found.size() + 1, out_,
+                                      {.plain = [&](const Order& order) { return fly_one(order, false); },
+                                       .with_report = [&](const Order& order) { return fly_one(order, true); }});
+      if (!next) break;
+      found.push_back(std::move(*next));
+      write_file_whole(out_ / "falsify.json", falsify_json(search_, result, found));
+    }
+    return found;
+  }
+
   std::optional<std::vector<FlightRecord>> fly(const std::vector<Order>& orders, bool reports) {
     FlyOptions options = fly_;
     options.reports = reports;
@@ -120,19 +144,36 @@ class FalsifyRun {
     return records ? std::optional(std::move(records->front())) : std::nullopt;
   }
 
-  /// Prints the failures and returns the exit status.
-  int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
-    const auto failing = std::ranges::count_if(result.trials, &FalsifyTrial::fails);
+  /// Prints the search's flights and failing points. @param failures  number of distinct failures.
+  /// @return the number of flights that were not flown.
+  static size_t print_search(const FalsifyResult& result, size_t failures) {
     fmt::print("{}{}", mixture_words(result.records), truth_words(result.records));
     const size_t not_flown = print_not_flown(result.records);
-    if (found.empty())
+    if (failures == 0) {
       fmt::print("no failure in {} flights: none was found, which is no proof of safety\n",
                  result.records.size() - not_flown);
-    if (!found.empty()) {
+    } else {
       fmt::print("{} flights, {} of {} points fail, the first after {} flights; {} distinct failures\n",
-                 result.records.size(), failing, result.trials.size(), result.trials[result.failures[0]].record + 1,
-                 found.size());
+                 result.records.size(), std::ranges::count_if(result.trials, &FalsifyTrial::fails),
+                 result.trials.size(), result.trials[result.failures[0]].record + 1, failures);
     }
+    return not_flown;
+  }
+
+  /// Prints the competition's scores and returns the exit status.
+  int conclude(const FalsifyResult& result, const CompetitionSuite& suite) const {
+    const size_t not_flown = print_search(result, suite.tests.size());
+    std::vector<FlightRecord> runs;
+    for (const CompetitionTest& test : suite.tests) runs.insert(runs.end(), test.records.begin(), test.records.end());
+    const size_t runs_not_flown = print_not_flown(runs);
+    fmt::print("{}written: {}\n", suite_words(suite), (out_ / "report.html").string());
+    if (suite.confirmed() > 0) return kFails;
+    return not_flown + runs_not_flown > 0 || !suite.tests.empty() ? kUndecided : 0;
+  }
+
+  /// Prints the failures and returns the exit status.
+  int conclude(const FalsifyResult& result, const std::vector<Counterexample>& found) const {
+    const size_t not_flown = print_search(result, found.size());
     size_t confirmed = 0;
     bool differs = false;
     for (const Counterexample& one : found) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "dynamics/hull.h"
@@ -71,6 +72,31 @@ double overlap_m(const BoxConfig& a, const BoxConfig& b) {
     min_m = std::min(min_m, half_extent_m(a, axis) + half_extent_m(b, axis) - apart_m);
   }
   return min_m;
+}
+
+double common_area_m2(const BoxConfig& a, const BoxConfig& b) {
+  std::vector<Vector2d> polygon = a.corners_NE_m();
+  const auto clip = [&](const Vector2d& normal, double half_m) {
+    const std::vector<Vector2d> whole = std::exchange(polygon, {});
+    const auto beyond_m = [&](const Vector2d& p) { return normal.dot(p - middle(b)) - half_m; };
+    for (size_t i = 0; i < whole.size(); ++i) {
+      const Vector2d &from = whole[i], &to = whole[(i + 1) % whole.size()];
+      const double from_m = beyond_m(from), to_m = beyond_m(to);
+      if (from_m <= 0.0) polygon.push_back(from);
+      if ((from_m < 0.0 && to_m > 0.0) || (from_m > 0.0 && to_m < 0.0))
+        polygon.emplace_back(from + (to - from) * (from_m / (from_m - to_m)));
+    }
+  };
+  for (const double sign : {1.0, -1.0}) {
+    clip(sign * along(b), 0.5 * b.length_m);
+    clip(sign * across(b), 0.5 * b.width_m);
+  }
+  double twice_m2 = 0.0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    twice_m2 += p.x() * q.y() - p.y() * q.x();
+  }
+  return 0.5 * std::abs(twice_m2);
 }
 
 double plan_distance_m(const BoxConfig& box, const Vector2d& p_NE_m) {

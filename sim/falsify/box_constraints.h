@@ -20,6 +20,10 @@ double violation(const FalsifySearch& search, const std::vector<scenes::BoxConfi
 /// Source: [GottschalkLinManocha1996] sec. on overlap tests (separating axes), in two dimensions.
 double overlap_m(const scenes::BoxConfig& a, const scenes::BoxConfig& b);
 
+/// Returns the area that two boxes share in the horizontal plane, m^2.
+/// Source: [SutherlandHodgman1974] sec. on the algorithm: one box, clipped by the four sides of the other.
+double common_area_m2(const scenes::BoxConfig& a, const scenes::BoxConfig& b);
+
 /// Returns the horizontal distance of a point to a box, m; 0 inside.
 double plan_distance_m(const scenes::BoxConfig& box, const Eigen::Vector2d& p_NE_m);
 

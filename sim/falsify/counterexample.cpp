@@ -101,7 +101,7 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
 }
 
 std::string falsify_json(const FalsifySearch& search, const FalsifyResult& result,
-                         const std::vector<Counterexample>& counterexamples) {
+                         const std::vector<Counterexample>& counterexamples, const CompetitionSuite* suite) {
   constexpr const char* kMethods[] = {"cma_es", "direct", "random"};
   Json json{{"version", std::string(version())},
             {"build", std::string(build_identity())},
@@ -117,7 +117,8 @@ std::string falsify_json(const FalsifySearch& search, const FalsifyResult& resul
             {"flights_to_first", nullptr},
             {"failing_flights", 0},
             {"failures", result.failures.size()},
-            {"counterexamples", Json::array()}};
+            {"counterexamples", Json::array()},
+            {"suite", suite ? suite_json(*suite) : Json()}};
   if (!result.failures.empty()) json["flights_to_first"] = 1 + result.trials[result.failures[0]].record;
   for (const FalsifyTrial& trial : result.trials) {
     if (trial.fails()) json["failing_flights"] = json["failing_flights"].get<size_t>() + 1;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/falsify/competition_suite.h"
 #include "sim/falsify/shrink.h"
 
 namespace hedgehop::sim {
@@ -37,7 +38,8 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
                                                   const std::filesystem::path& out, const CounterexampleFlights& fly);
 
 /// Returns the text of falsify.json: the search, its flights, failures and counterexamples.
+/// @param suite  of a search by the competition's score; else null.
 std::string falsify_json(const FalsifySearch& search, const FalsifyResult& result,
-                         const std::vector<Counterexample>& counterexamples);
+                         const std::vector<Counterexample>& counterexamples, const CompetitionSuite* suite = nullptr);
 
 }  // namespace hedgehop::sim

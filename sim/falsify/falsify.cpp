@@ -11,6 +11,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/falsify/box_constraints.h"
 #include "sim/falsify/cma_es.h"
+#include "sim/falsify/competition_score.h"
 #include "sim/flight/flight.h"
 #include "sim/libm/random.h"
 #include "sim/sweep/optimize.h"
@@ -128,7 +129,7 @@ class Search {
     trial.weakest.robustness = kInfeasibleCost;
     trial.record = result_.records.size() + first;
     for (size_t k = first; k < first + seeds(); ++k) {
-      const auto weakest = weakest_check(records[k], search_.config.robustness);
+      const auto weakest = objective(search_, records[k]);
       if (!weakest || (trial.flown && weakest->robustness >= trial.weakest.robustness)) continue;
       trial.flown = true;
       trial.weakest = *weakest;
@@ -249,7 +250,7 @@ Table falsify_table(const FalsifySearch& search, const FalsifyResult& result) {
   std::vector<std::string> weakest_checks;
   const size_t seeds = result.trials.empty() ? 1 : result.records.size() / result.trials.size();
   for (size_t i = 0; i < result.records.size(); ++i) {
-    const auto weakest = weakest_check(result.records[i], search.config.robustness);
+    const auto weakest = objective(search, result.records[i]);
     generations.push_back(static_cast<double>(result.trials[i / seeds].generation));
     weakest_checks.push_back(weakest ? weakest->name : "");
     robustness.push_back(weakest ? weakest->robustness : std::numeric_limits<double>::quiet_NaN());

@@ -77,11 +77,21 @@ class Inspector {
           fmt::format("{} flights are fewer than the {} seeds of one point", config_.design.budget, seeds));
     }
     if (config_.boxes) boxes(*config_.boxes);
+    if (config_.score == FalsifyScore::sbft) competition();
     if (!config_.constraints.empty() && !config_.boxes)
       add("constraints", "'constraints' require 'boxes', which are missing");
   }
 
  private:
+  /// The competition's rules fix what the other keys choose.
+  void competition() {
+    const auto& constraints = config_.constraints;
+    if (!config_.boxes) add("score", "'score: sbft' requires 'boxes', which are missing");
+    if (std::ranges::find(constraints, FalsifyConstraint::boxes_apart) == constraints.end())
+      add("score", "'score: sbft' requires the constraint 'boxes_apart'");
+    if (config_.seeds) add("seeds", "'seeds': 'score: sbft' flies the scenario's seed, and failing tests with the next five");
+    if (!config_.robustness.empty()) add("robustness", "'robustness' has no effect with 'score: sbft'");
+  }
   void boxes(const FalsifyBoxes& c) {
     for (const auto& [key, range] : ranges(c)) {
       if (range[0] > range[1]) {

@@ -55,6 +55,12 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyBoxes> auto& c) {
 /// A constraint on points. A point that violates one is not flown and costs no flight.
 enum class FalsifyConstraint { boxes_inside, boxes_apart, way_exists };
 
+/// What a search minimizes.
+enum class FalsifyScore {
+  robustness,  ///< the robustness of the weakest check
+  sbft         ///< the negative score of the UAV testing competition (competition_score.h)
+};
+
 struct FalsifyDesign {
   enum class Method { cma_es, direct, random };
   Method method = Method::cma_es;
@@ -84,6 +90,7 @@ struct FalsifyConfig {
   std::string scenario;  ///< relative to the file; once read, to the working folder
   std::optional<std::string> seeds;
   std::vector<std::string> set;
+  FalsifyScore score = FalsifyScore::robustness;
   std::vector<std::string> robustness;
   FalsifyDesign design;
   std::optional<FalsifyBoxes> boxes;
@@ -98,6 +105,10 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyConfig> auto& c) {
     {.meaning = "seeds flown at every point, of which the one with the minimum robustness counts; default: the "
                 "scenario's seed"});
   v("set", c.set, {.meaning = "overrides of the scenario at every point, each key.path=value"});
+  v("score", c.score,
+    {.choices = {"robustness", "sbft"},
+     .meaning = "objective: the robustness of the checks, or the score of the SBFT UAV testing competition 2025, with "
+                "five runs of each failing test"});
   v("robustness", c.robustness, {.meaning = "names of the checks to violate; default: all checks of the scenario"});
   v("design", c.design, {.required = true, .meaning = "method and budget of the search"});
   v("boxes", c.boxes, {.meaning = "boxes to place in the scene"});

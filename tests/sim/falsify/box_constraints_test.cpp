@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -44,6 +45,30 @@ TEST(BoxConstraints, OverlapAgreesWithPointsInBoth) {
     both += overlap > 0.0 ? 1 : 0;
   }
   EXPECT_GT(both, 30);
+}
+
+/// Counts the points of a fine grid that lie in both boxes.
+TEST(BoxConstraints, CommonAreaAgreesWithPointsInBoth) {
+  std::mt19937 random(2);
+  constexpr int kSteps = 200;
+  double max_m2 = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const BoxConfig a = random_box(random), b = random_box(random);
+    const auto corners = a.corners_NE_m();
+    int inside = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      for (int k = 0; k < kSteps; ++k) {
+        const Eigen::Vector2d p = corners[0] + (corners[1] - corners[0]) * (i + 0.5) / kSteps +
+                                  (corners[3] - corners[0]) * (k + 0.5) / kSteps;
+        inside += plan_distance_m(b, p) == 0.0 ? 1 : 0;
+      }
+    }
+    const double area_m2 = a.length_m * a.width_m, grid_m2 = area_m2 * inside / (kSteps * kSteps);
+    EXPECT_NEAR(common_area_m2(a, b), grid_m2, 0.01 * area_m2);  // two rows or columns of the grid
+    EXPECT_NEAR(common_area_m2(a, b), common_area_m2(b, a), 1e-9);
+    max_m2 = std::max(max_m2, grid_m2);
+  }
+  EXPECT_GT(max_m2, 10.0);
 }
 
 TEST(BoxConstraints, DistanceToARotatedBoxIsMeasuredToItsCornersAndSides) {

@@ -115,10 +115,19 @@ TEST_F(Falsify, RejectsBadInputInOneLineBeforeAnyFlight) {
   EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': the lower end must come first"));
   EXPECT_THAT(fault("parameters=[{path: wind.speed, from: 3, to: 1}]"), HasSubstr("'from' must be less than 'to'"));
   EXPECT_THAT(fault("parameters=[{path: wind.sped, from: 0, to: 1}]"), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(fault("score=sbt"), HasSubstr("'score': must be one of robustness, sbft"));
   EXPECT_THAT(fault("design.method=direct"), HasSubstr("'direct' supports up to 5 unknowns; there are 11"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always (clearence > 1)\"]"), HasSubstr("did you mean 'clearance'?"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always[0,20] (clearance > 1)\"]"),
               HasSubstr("looks 20 s ahead, which is longer than the flight (12 s)"));
+}
+
+TEST_F(Falsify, TheCompetitionsScoreFixesSeedsChecksAndConstraints) {
+  const CommandEnd end = folder.hedgehop("falsify search.yaml --out none --set score=sbft --set constraints=[]");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr("search.yaml:2:8: 'seeds': 'score: sbft' flies the scenario's seed"));
+  EXPECT_THAT(end.err, HasSubstr("search.yaml:3:13: 'robustness' has no effect with 'score: sbft'"));
+  EXPECT_THAT(end.err, HasSubstr("'score: sbft' requires the constraint 'boxes_apart'"));
 }
 
 TEST_F(Falsify, FlightsThatAreNotFlownLeaveTheSearchUndecided) {

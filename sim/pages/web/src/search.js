@@ -12,13 +12,14 @@ class SearchView {
     host.append(make('h2', '', 'Search for failures'));
     host.append(make('p', 'soft', `${search.method}, seed ${search.seed}: ${search.flights} of ${search.budget} flights, ${search.unknowns} unknowns, ` +
       `${search.infeasible_points} points not flown because of a violated constraint. ` +
-      (search.failures ? `${search.failing_flights} points fail, the first after ${search.flights_to_first} flights; ${search.failures} distinct failures, ` +
-        `${confirmed} of ${kept.length} confirmed.` : 'No failure was found. This does not prove safety.')));
+      (search.failures ? `${search.failing_flights} points fail, the first after ${search.flights_to_first} flights; ${search.failures} distinct failures` +
+        (search.suite ? '.' : `, ${confirmed} of ${kept.length} confirmed.`) : 'No failure was found. This does not prove safety.')));
     this.axes = new Axes(host.appendChild(make('div')), 240, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
-    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis('minimum robustness of all checks', [...this.robustness, 0]));
-    host.append(make('div', 'plan-key', 'line: minimum so far; below 0 a check fails'));
+    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis(search.suite ? 'distance beyond 1.5 m, or negative score' : 'minimum robustness of all checks', [...this.robustness, 0]));
+    host.append(make('div', 'plan-key', `line: minimum so far; below 0 ${search.suite ? 'a flight is unsafe' : 'a check fails'}`));
+    if (search.suite) this.fillSuite(host, search.suite);
     const list = host.appendChild(make('div', 'pair halves'));
     kept.forEach((one, i) => this.fillFailure(list.appendChild(make('div')), one, search.paths, i));
   }
@@ -55,6 +56,29 @@ class SearchView {
   lines(x, y) {
     const row = this.at(x, y);
     return row === null ? null : [this.table.value('id', row), `${this.table.value('weakest', row)}: robustness ${short(this.robustness[row])}`];
+  }
+
+  /** Adds the tests of the competition and their scores. */
+  fillSuite(host, suite) {
+    host.append(make('h3', '', 'Score of the UAV testing competition, 2025'));
+    host.append(make('p', '', `Failure score ${fixed(suite.failure_score, 2)}, diversity score ${suite.diversity_score === null ? '–' : fixed(suite.diversity_score, 2)}; ` +
+      `${suite.confirmed} of ${suite.candidates} tests are confirmed: unsafe in each of ${suite.runs_of_test} runs. The others do not count. ` +
+      'The tested system is not the competition\'s, so no ranking follows.'));
+    const body = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
+    const add = (tag, cells) => {
+      const row = body.appendChild(make('tr'));
+      cells.forEach((cell) => row.appendChild(make(tag, '', cell)));
+      return row;
+    };
+    add('th', ['test', 'boxes', 'minimum distance of each run, m', 'mean time, s', 'mean points', 'score', 'confirmed', 'scenario']);
+    for (const test of suite.tests) {
+      const flown = test.runs.filter((run) => run.time_s !== undefined);
+      const row = add('td', [test.name, String(test.boxes.length), test.runs.map((run) => run.min_distance_m === undefined ? run.outcome : fixed(run.min_distance_m, 2)).join(', '),
+        flown.length ? fixed(flown.reduce((sum, run) => sum + run.time_s, 0) / flown.length, 1) : '–', fixed(test.mean_points, 1), fixed(test.score, 2), test.confirmed ? 'yes' : 'no', '']);
+      if (!test.file) continue;
+      const link = row.lastChild.appendChild(make('a', '', 'scenario'));
+      link.href = test.file;
+    }
   }
 
   /** Adds a minimized failure: its path over the scene, and links to its files. */
