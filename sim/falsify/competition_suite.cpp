@@ -56,9 +56,8 @@ std::optional<CompetitionSuite> fly_suite(const FalsifySearch& search, const Fal
   std::vector<Order> orders;
   for (const size_t trial : trials) {
     const std::vector<std::string>& values = result.trials[trial].values;
-    suite.tests.push_back({.name = fmt::format("test{:02}", suite.tests.size() + 1),
-                           .trial = trial,
-                           .boxes = boxes_at(search, values)});
+    suite.tests.push_back(
+        {.name = fmt::format("test{:02}", suite.tests.size() + 1), .trial = trial, .boxes = boxes_at(search, values)});
     for (Order& order : point_orders(sweep, values, suite.tests.back().name)) orders.push_back(std::move(order));
   }
   const std::optional<std::vector<FlightRecord>> records = orders.empty() ? std::vector<FlightRecord>{} : fly(orders);
@@ -96,12 +95,9 @@ void write_tests(const std::string& search_file, const std::filesystem::path& ou
 }
 
 Json suite_json(const CompetitionSuite& suite) {
-  Json json{{"runs_of_test", kRunsOfTest},
-            {"candidates", suite.tests.size()},
-            {"confirmed", suite.confirmed()},
-            {"failure_score", suite.failure_score},
-            {"diversity_score", nullptr},
-            {"tests", Json::array()}};
+  Json json{{"runs_of_test", kRunsOfTest},    {"candidates", suite.tests.size()},
+            {"confirmed", suite.confirmed()}, {"failure_score", suite.failure_score},
+            {"diversity_score", nullptr},     {"tests", Json::array()}};
   if (suite.diversity_score) json["diversity_score"] = *suite.diversity_score;
   for (const CompetitionTest& test : suite.tests) {
     Json one{{"name", test.name}, {"point", test.trial}, {"confirmed", test.confirmed}};

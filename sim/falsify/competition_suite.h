@@ -24,7 +24,7 @@ struct CompetitionTest {
   std::vector<FlightRecord> records;  ///< one per run
   std::vector<CompetitionRun> runs;   ///< of the records with a result
   double mean_points = 0.0, score = 0.0;
-  bool confirmed = false;  ///< every run was flown and is unsafe
+  bool confirmed = false;      ///< every run was flown and is unsafe
   std::filesystem::path file;  ///< its scenario, if it is confirmed
 };
 
@@ -42,7 +42,8 @@ size_t suite_candidates(const FalsifyResult& result);
 
 /// Flies the distinct failures of a search, the best 20, five times each, with the five seeds after the scenario's.
 /// Returns nullopt if interrupted.
-std::optional<CompetitionSuite> fly_suite(const FalsifySearch& search, const FalsifyResult& result, const FlyPoint& fly);
+std::optional<CompetitionSuite> fly_suite(const FalsifySearch& search, const FalsifyResult& result,
+                                          const FlyPoint& fly);
 
 /// Writes counterexamples/<search>-<number>.yaml for each confirmed test: its first run, with `origin`.
 /// @param search_file  path as the user gave it. @param out  the search's folder.

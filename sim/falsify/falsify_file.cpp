@@ -83,13 +83,14 @@ class Inspector {
   }
 
  private:
-  /// The competition's rules fix what the other keys choose.
+  /// The competition's rules fix seeds and checks, and its areas of boxes are sums.
   void competition() {
     const auto& constraints = config_.constraints;
     if (!config_.boxes) add("score", "'score: sbft' requires 'boxes', which are missing");
     if (std::ranges::find(constraints, FalsifyConstraint::boxes_apart) == constraints.end())
       add("score", "'score: sbft' requires the constraint 'boxes_apart'");
-    if (config_.seeds) add("seeds", "'seeds': 'score: sbft' flies the scenario's seed, and failing tests with the next five");
+    if (config_.seeds)
+      add("seeds", "'seeds': 'score: sbft' flies the scenario's seed, and failing tests with the next five");
     if (!config_.robustness.empty()) add("robustness", "'robustness' has no effect with 'score: sbft'");
   }
   void boxes(const FalsifyBoxes& c) {

@@ -55,7 +55,7 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyBoxes> auto& c) {
 /// A constraint on points. A point that violates one is not flown and costs no flight.
 enum class FalsifyConstraint { boxes_inside, boxes_apart, way_exists };
 
-/// What a search minimizes.
+/// The objective that a search minimizes.
 enum class FalsifyScore {
   robustness,  ///< the robustness of the weakest check
   sbft         ///< the negative score of the UAV testing competition (competition_score.h)
