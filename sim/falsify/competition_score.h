@@ -40,9 +40,9 @@ double similarity(const std::vector<scenes::BoxConfig>& a, const std::vector<sce
 /// Source: [KhatiriEtAl2025] eq. (5).
 std::optional<double> diversity_score(const std::vector<std::vector<scenes::BoxConfig>>& tests);
 
-/// Returns the objective that a search minimizes. With `score: robustness` that is the weakest check. With `score: sbft` it is the
-/// distance beyond 1.5 m of a safe flight, or the negative score of the single run of an unsafe one. Because points
-/// change in steps, 0.1 per meter below 1.5 m is added, so that the search also moves within a step.
+/// Returns the objective that a search minimizes. With `score: robustness` that is the weakest check. With `score:
+/// sbft` it is the distance beyond 1.5 m of a safe flight, or the negative score of the single run of an unsafe one.
+/// Because points change in steps, 0.1 per meter below 1.5 m is added, so that the search also moves within a step.
 /// @return nullopt if the flight was not flown.
 std::optional<WeakestCheck> objective(const FalsifySearch& search, const FlightRecord& record);
 
