@@ -38,6 +38,30 @@ double outside_m(const FalsifyBoxes& range, const BoxConfig& box) {
   return sum_m;
 }
 
+/// Returns the start, the waypoints of the route, and the goal.
+std::vector<Vector2d> places_of(const Scenario& scenario) {
+  std::vector<Vector2d> places{scenario.start.p_WB().head<2>()};
+  for (const GoalConfig& place : scenario.route) places.emplace_back(place.p_WG().head<2>());
+  if (scenario.goal) places.emplace_back(scenario.goal->p_WG().head<2>());
+  return places;
+}
+
+/// Returns the distance of the nearest box from the straight lines of the route, m, in steps of half a meter.
+double off_route_m(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
+  constexpr double kStepM = 0.5;
+  const std::vector<Vector2d> places = places_of(scenario);
+  double min_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 1; i < places.size(); ++i) {
+    const Vector2d leg = places[i] - places[i - 1];
+    const int steps = std::max(1, static_cast<int>(std::ceil(leg.norm() / kStepM)));
+    for (int k = 0; k <= steps; ++k) {
+      for (const BoxConfig& box : boxes)
+        min_m = std::min(min_m, plan_distance_m(box, places[i - 1] + leg * (static_cast<double>(k) / steps)));
+    }
+  }
+  return min_m;
+}
+
 /// Returns whether a collision-free path leads from the start through the waypoints of the route to the goal.
 bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
   constexpr double kClearM = 0.5, kCellM = 0.5, kMarginM = 20.0;
@@ -48,9 +72,7 @@ bool way_exists(const Scenario& scenario, const std::vector<BoxConfig>& boxes) {
     for (const BoxConfig& box : boxes) min_m = std::min(min_m, plan_distance_m(box, p_NE_m) - radius_m);
     return min_m;
   };
-  std::vector<Vector2d> places{scenario.start.p_WB().head<2>()};
-  for (const GoalConfig& place : scenario.route) places.emplace_back(place.p_WG().head<2>());
-  places.emplace_back(scenario.goal->p_WG().head<2>());
+  const std::vector<Vector2d> places = places_of(scenario);
   Eigen::AlignedBox2d bounds;
   for (const Vector2d& place : places) bounds.extend(place);
   for (const BoxConfig& box : boxes) {
@@ -138,6 +160,7 @@ double violation(const FalsifySearch& search, const std::vector<BoxConfig>& boxe
       for (size_t k = 0; k < i; ++k) sum += std::max(0.0, overlap_m(boxes[i], boxes[k]));
     }
   }
+  if (requires_constraint(FalsifyConstraint::box_on_route)) sum += off_route_m(search.scenario, boxes);
   if (sum == 0.0 && requires_constraint(FalsifyConstraint::way_exists) && !way_exists(search.scenario, boxes))
     sum = 1.0;
   return sum;

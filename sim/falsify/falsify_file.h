@@ -53,7 +53,7 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyBoxes> auto& c) {
 }
 
 /// A constraint on points. A point that violates one is not flown and costs no flight.
-enum class FalsifyConstraint { boxes_inside, boxes_apart, way_exists };
+enum class FalsifyConstraint { boxes_inside, boxes_apart, way_exists, box_on_route };
 
 /// The objective that a search minimizes.
 enum class FalsifyScore {
@@ -113,8 +113,9 @@ void describe(Visitor& v, fields::ConfigOf<FalsifyConfig> auto& c) {
   v("design", c.design, {.required = true, .meaning = "method and budget of the search"});
   v("boxes", c.boxes, {.meaning = "boxes to place in the scene"});
   v("constraints", c.constraints,
-    {.choices = {"boxes_inside", "boxes_apart", "way_exists"},
-     .meaning = "corners within the range of the centers; no two boxes overlap; a path past the boxes to the goal"});
+    {.choices = {"boxes_inside", "boxes_apart", "way_exists", "box_on_route"},
+     .meaning = "corners within the range of the centers; no two boxes overlap; a path past the boxes to the goal; the "
+                "straight route leads through a box"});
   v("parameters", c.parameters, {.meaning = "further unknowns"});
 }
 

@@ -150,6 +150,33 @@ TEST(LocalMapFlight, PassesAPassageTooNarrowForItsMargin) {
   }
 }
 
+// Two walls leave a gap as the only way. The true distance decides whether the margin can be kept.
+TEST(LocalMapFlight, ReportsExactlyTheMarginsThatItCannotKeep) {
+  constexpr double kHullM = 0.65, kMarginM = 1.3, kMissM = 0.1;
+  for (const auto& [beside_m, can_keep] : {std::pair{0.9, false}, {2.6, true}}) {
+    PointWorld world;
+    world.radius_m = kHullM;
+    world.goal_W = {16.0, 0.0};
+    for (const double side : {-1.0, 1.0})
+      world.walls.push_back({{8.0, side * (kHullM + beside_m + 0.2)}, {8.0, side * 40.0}});
+    double narrow_share = 0.0, map_margin_m = 0.0;
+    world.watch = [&](const auto&, double, const Decision&, const Module& module) {
+      for (const Metric& metric : module.metrics()) {
+        if (metric.name == "narrow_share") narrow_share = metric.value;
+        if (metric.name == "map_margin") map_margin_m = metric.value;
+      }
+    };
+    LocalMapConfig config;
+    config.margin_m = kMarginM;
+    const PointWorld::Flown flown = world.fly(config);
+    EXPECT_TRUE(flown.reached) << beside_m;
+    EXPECT_EQ(flown.clearance_m >= kMarginM - kMissM, can_keep) << flown.clearance_m;
+    EXPECT_EQ(std::ranges::count(flown.statuses, "narrow") == 0, can_keep) << beside_m;
+    EXPECT_EQ(narrow_share == 0.0, can_keep) << narrow_share;
+    EXPECT_EQ(map_margin_m >= kMarginM - kMissM, can_keep) << map_margin_m;
+  }
+}
+
 TEST(LocalMapFlight, ReportsStuckIfNoRouteExists) {
   PointWorld world;
   world.goal_W = {20.0, 0.0};

@@ -99,6 +99,22 @@ TEST(BoxConstraints, ViolationSumsProtrusionsAndOverlaps) {
   EXPECT_NEAR(violation(search(), {inside, near}), 1.0, 1e-9);
 }
 
+/// The route runs 20 m east, then 30 m north.
+TEST(BoxConstraints, TheRouteMustLeadThroughABox) {
+  FalsifySearch along = search();
+  along.config.constraints = {FalsifyConstraint::box_on_route};
+  along.scenario.route = {GoalConfig{.north_m = 0.0, .east_m = 20.0}};
+  along.scenario.goal = GoalConfig{.north_m = 30.0, .east_m = 20.0};
+  const auto box = [](double north_m, double east_m) {
+    return BoxConfig{.north_m = north_m, .east_m = east_m, .length_m = 4.0, .width_m = 6.0};
+  };
+  EXPECT_EQ(violation(along, {box(1.0, 10.0)}), 0.0);
+  EXPECT_EQ(violation(along, {box(20.0, 22.0)}), 0.0);
+  EXPECT_NEAR(violation(along, {box(-5.0, 10.0)}), 3.0, 1e-9);
+  EXPECT_NEAR(violation(along, {box(-5.0, 10.0), box(10.0, 24.5)}), 1.5, 1e-9);
+  EXPECT_EQ(violation(along, {box(-5.0, 10.0), box(0.0, 10.0)}), 0.0);
+}
+
 /// A box around the goal blocks every path to it.
 TEST(BoxConstraints, APathToTheGoalMustExist) {
   FalsifySearch at_goal = search();

@@ -1,0 +1,107 @@
+"""scripts/fields: the sample of a synthetic list, flights that `hedgehop validate` accepts, and tables of made-up results.
+
+usage: fields_test.py PROGRAM SOURCE
+"""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import yaml
+
+PROGRAM, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+BOXES = "simulation:\n  obstacles:\n  - size: {{l: 4, w: 4, h: 10}}\n    position: {{x: {x}, y: {y}, z: 0, r: 30}}\n"
+
+
+class Fields(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+        (self.folder / "tests").mkdir()
+        for name, x, y in (("m1_test_0", 2, 20), ("m1_test_1", 5, 25), ("m2_test_0", -3, 30)):
+            (self.folder / "tests" / f"{name}.yaml").write_text(BOXES.format(x=x, y=y))
+        # The script writes into its own source tree.
+        for part in ("scripts/fields", "configs", "docs/validation.md"):
+            copy, whole = self.folder / "source" / part, SOURCE / part
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copytree(whole, copy) if whole.is_dir() else shutil.copy(whole, copy)
+
+    def fields(self, *words, status=0):
+        done = subprocess.run([sys.executable, self.folder / "source/scripts/fields", *words], cwd=self.folder, capture_output=True,
+                              text=True, env={**os.environ, "HEDGEHOP": str(PROGRAM)})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_every_module_flies_the_listed_fields_at_every_speed(self):
+        (self.folder / "list.yaml").write_text("fields: [{name: m1_test_1}, {name: m2_test_0}]\n")
+        self.fields("prepare", "out", "--aerialist", "tests", "--sample", "list.yaml", "--modules", "all", "--speeds", "3,10", "--seeds", "24001:24005")
+        board = yaml.safe_load((self.folder / "out/campaign.yaml").read_text())["leaderboard"]
+        self.assertEqual([world["name"] for world in board["worlds"]], ["m1_test_1", "m2_test_0"])
+        names = [module["name"] for module in board["modules"]]
+        with_speed = ["go_to_goal", "stereo_corridor", "flow_balance", "landmark_map", "local_map"]
+        self.assertEqual(sorted(names), sorted([f"{name} {speed}" for name in with_speed for speed in (3, 10)] + ["section_grid own", "cloned_policy own"]))
+        fast = next(module["set"] for module in board["modules"] if module["name"] == "local_map 10")
+        self.assertIn("avoidance.speed=10", fast)
+        self.assertEqual([item for item in fast if "speed_limit" in item], ["avionics.autopilot.speed_limit=10"])
+        done = subprocess.run([PROGRAM, "validate", "out/campaign.yaml"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("120 flights of 24 scenarios", done.stdout)
+
+    def test_a_missing_field_or_an_unknown_module_is_an_error(self):
+        (self.folder / "list.yaml").write_text("fields: [{name: barn_world_3}]\n")
+        self.assertIn("the folders lack barn_world_3", self.fields("prepare", "out", "--aerialist", "tests", "--sample", "list.yaml", status=1))
+        self.assertIn("'zig_zag' is no module that flies to a goal; valid: all, go_to_goal, ",
+                      self.fields("prepare", "out", "--aerialist", "tests", "--modules", "zig_zag", status=1))
+
+    def test_sample_takes_the_median_of_each_stratum(self):
+        (self.folder / "out").mkdir()
+        with (self.folder / "out/fields.csv").open("w", newline="") as file:
+            rows = csv.writer(file)
+            rows.writerow(["field", "source", "density"])
+            rows.writerows([f"barn_{k}", "barn", f"{(7 * k) % 27}.5"] for k in range(27))  # each density once
+            rows.writerows([f"m{k}", "aerialist", f"0.{k}"] for k in range(4))
+            for level in ("easy", "medium", "hard"):
+                rows.writerows([f"{level}_{k}", f"flightmare {level}", k] for k in range(6))
+            rows.writerow(["moving_field", "moving field", 28.9])
+        self.fields("sample", "out")
+        chosen = yaml.safe_load((self.folder / "source/configs/fields/sample.yaml").read_text())["fields"]
+        self.assertEqual(len(chosen), 20)
+        self.assertEqual([field["density"] for field in chosen if field["source"] == "barn"], [3 * k + 1.5 for k in range(9)])
+        self.assertEqual([field["name"] for field in chosen if field["source"] == "flightmare hard"], ["hard_1", "hard_4"])
+        self.assertEqual({field["of"] for field in chosen if field["source"] == "barn"}, {27})
+
+    def test_table_counts_success_by_density_source_and_speed(self):
+        out = self.folder / "out"
+        (out / "flights").mkdir(parents=True)
+        (out / "fields.csv").write_text("field,source,density\nthin,barn,0.5\ndense,barn,4\n")
+        cells, rows = [], []
+        for field, module, ends in (("thin", "local_map 3", ["reached"] * 9 + ["timeout"]), ("dense", "local_map 3", ["reached", "collided"]),
+                                    ("dense", "section_grid own", ["timeout"])):
+            cells.append({"group": f"{field}/{module}", "world": field, "module": module, "reason": ""})
+            rows += [f"{field}/{module},flown,{end}" for end in ends]
+        rows.append("dense/local_map 3,failed,failed")  # was not flown
+        (out / "flights/leaderboard.json").write_text(json.dumps({"cells": cells}))
+        (out / "flights/batch.csv").write_text("\n".join(["group,status,outcome", *rows]) + "\n")
+        text = self.fields("table", "out")
+        # Intervals of Wilson from a table: 9 of 10, 1 of 2, 10 of 12, 0 of 1.
+        self.assertIn("| obstacles in 100 m² | module | 3 m/s | own speed |", text)
+        self.assertIn("| 0 to 1 | local_map | 90 % (60 to 98) of 10 | - |", text)
+        self.assertIn("| 3 to 10 | local_map | 50 % (9 to 91) of 2; 1 collided | - |", text)
+        self.assertIn("| all | local_map | 83 % (55 to 95) of 12; 1 collided | - |", text)
+        self.assertIn("| barn | section_grid | - | 0 % (0 to 79) of 1 |", text)
+        self.assertIn("13 flights.", text)
+        self.fields("table", "out", "--write")
+        page = (self.folder / "source/docs/validation.md").read_text()
+        self.assertIn(text.strip(), page)
+        self.assertIn("## Obstacle fields", page)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
