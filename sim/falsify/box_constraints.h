@@ -12,8 +12,8 @@ namespace hedgehop::sim {
 std::vector<scenes::BoxConfig> boxes_at(const FalsifySearch& search, const std::vector<std::string>& values);
 
 /// Returns by how much boxes violate the constraints of a search; 0 if they satisfy them. The value sums the distances
-/// of corners outside the range, the depths of overlaps, and the distance of the nearest box from the straight route, m.
-/// If this sum is 0 but no path leads to the goal, it is 1.
+/// of corners outside the range, the depths of overlaps, and the distance of the nearest box from the straight route,
+/// m. If this sum is 0 but no path leads to the goal, it is 1.
 double violation(const FalsifySearch& search, const std::vector<scenes::BoxConfig>& boxes);
 
 /// Returns the penetration depth of two boxes in the horizontal plane, m, along the axis of minimum overlap; < 0 if an
