@@ -19,7 +19,9 @@ class KeptMargin {
   KeptMargin() = default;
   /// @param margin_m  as configured. @param voxel_m  of the map.
   KeptMargin(double margin_m, double voxel_m)
-      : is_kept_(margin_m > voxel_m), planned_m_(margin_m + (is_kept_ ? kMapErrorVoxels * voxel_m : 0.0)) {}
+      : is_kept_(margin_m > voxel_m),
+        margin_m_(margin_m),
+        planned_m_(margin_m + (is_kept_ ? kMapErrorVoxels * voxel_m : 0.0)) {}
 
   bool is_kept() const { return is_kept_; }
   /// Returns the margin of plans and routes, m.
@@ -47,11 +49,18 @@ class KeptMargin {
   void widen() { is_narrow_ = false; }
   bool is_narrow() const { return is_narrow_; }
 
+  /// Returns whether the vehicle is closer than a margin that is to be kept, although it passes no narrow passage: the
+  /// obstacle was seen late, or the stop before it takes longer. @param margin_m  distance from the hull to occupied
+  /// cells.
+  bool is_missed(double margin_m) const { return is_kept_ && !is_narrow_ && margin_m < margin_m_; }
+
   /// Counts a decision. @param margin_m  distance from the hull to occupied cells.
   void count(double margin_m) {
     narrows_ += is_narrow_;
+    misses_ += is_missed(margin_m);
     least_m_ = std::min(least_m_, margin_m);
   }
+  int64_t missed_decisions() const { return misses_; }
   int64_t narrow_decisions() const { return narrows_; }
   double least_m() const { return least_m_; }  ///< infinite before the first decision
 
@@ -59,8 +68,8 @@ class KeptMargin {
   static constexpr double kMapErrorVoxels = 1.5;  // half for a look-up of the distance, one for the map and its drift
 
   bool is_kept_ = false, is_narrow_ = false;
-  double planned_m_ = 0.0;
-  int64_t narrows_ = 0;
+  double margin_m_ = 0.0, planned_m_ = 0.0;
+  int64_t narrows_ = 0, misses_ = 0;
   double least_m_ = std::numeric_limits<double>::infinity();
 };
 

@@ -143,16 +143,18 @@ class LocalMap final : public Module {
     command.altitude_m = -around_->height_W();
     command.heading_rad = last_nose_rad_;
     decision.command = command;
-    decision.status = arrived                     ? "arrive"
-                      : !plan_.safe               ? "brake"
-                      : kept_margin_.is_narrow()  ? "narrow"
-                      : around_->changes_height() ? "level"
-                      : !goes_on                  ? "stuck"
-                      : unknown_target_.place_W() ? "look"
-                                                  : "cruise";
+    const double margin_m = slice().to_occupied_m(p_W) - clearance_.hull_m;
+    decision.status = arrived                            ? "arrive"
+                      : kept_margin_.is_missed(margin_m) ? "close"
+                      : !plan_.safe                      ? "brake"
+                      : kept_margin_.is_narrow()         ? "narrow"
+                      : around_->changes_height()        ? "level"
+                      : !goes_on                         ? "stuck"
+                      : unknown_target_.place_W()        ? "look"
+                                                         : "cruise";
     stuck_ += !goes_on;
     stops_ += !plan_.safe;
-    kept_margin_.count(slice().to_occupied_m(p_W) - clearance_.hull_m);
+    kept_margin_.count(margin_m);
     decision.signals = {route_m.value_or(std::nan("")),
                         (plan_.path.back().p_W - p_W).norm(),
                         around_->blocks().share(DepthBlock::Kind::unknown),
@@ -257,6 +259,7 @@ class LocalMap final : public Module {
                                    {"stuck_share", static_cast<double>(stuck_) / n, ""}};
     if (kept_margin_.is_kept() && decisions_ > 0) {
       metrics.push_back({"narrow_share", static_cast<double>(kept_margin_.narrow_decisions()) / n, ""});
+      metrics.push_back({"close_share", static_cast<double>(kept_margin_.missed_decisions()) / n, ""});
       metrics.push_back({"map_margin", kept_margin_.least_m(), "m"});
     }
     return metrics;

@@ -30,6 +30,29 @@ void score(CompetitionTest& test) {
                    });
 }
 
+CompetitionScores scores_of(const std::vector<CompetitionTest>& tests, bool only_confirmed) {
+  CompetitionScores scores;
+  std::vector<std::vector<scenes::BoxConfig>> boxes;
+  for (const CompetitionTest& test : tests) {
+    if (only_confirmed && !test.confirmed) continue;
+    scores.failure += test.score;
+    boxes.push_back(test.boxes);
+  }
+  scores.diversity = diversity_score(boxes);
+  return scores;
+}
+
+Json scores_json(const CompetitionScores& scores) {
+  Json json{{"failure_score", scores.failure}, {"diversity_score", nullptr}};
+  if (scores.diversity) json["diversity_score"] = *scores.diversity;
+  return json;
+}
+
+std::string scores_words(const CompetitionScores& scores) {
+  const std::string diversity = scores.diversity ? fmt::format("{:.2f}", *scores.diversity) : "- (needs two tests)";
+  return fmt::format("failure score {:.2f}, diversity score {}", scores.failure, diversity);
+}
+
 std::vector<double> distances_m(const CompetitionTest& test) {
   std::vector<double> distances;
   for (const CompetitionRun& run : test.runs) distances.push_back(run.min_distance_m);
@@ -62,17 +85,14 @@ std::optional<CompetitionSuite> fly_suite(const FalsifySearch& search, const Fal
   }
   const std::optional<std::vector<FlightRecord>> records = orders.empty() ? std::vector<FlightRecord>{} : fly(orders);
   if (!records) return {};
-  std::vector<std::vector<scenes::BoxConfig>> confirmed;
   for (size_t i = 0; i < suite.tests.size(); ++i) {
     CompetitionTest& test = suite.tests[i];
     const auto first = records->begin() + static_cast<ptrdiff_t>(i * kRunsOfTest);
     test.records.assign(first, first + kRunsOfTest);
     score(test);
-    if (!test.confirmed) continue;
-    suite.failure_score += test.score;
-    confirmed.push_back(test.boxes);
   }
-  suite.diversity_score = diversity_score(confirmed);
+  suite.of_confirmed = scores_of(suite.tests, true);
+  suite.of_all = scores_of(suite.tests, false);
   return suite;
 }
 
@@ -95,10 +115,9 @@ void write_tests(const std::string& search_file, const std::filesystem::path& ou
 }
 
 Json suite_json(const CompetitionSuite& suite) {
-  Json json{{"runs_of_test", kRunsOfTest},    {"candidates", suite.tests.size()},
-            {"confirmed", suite.confirmed()}, {"failure_score", suite.failure_score},
-            {"diversity_score", nullptr},     {"tests", Json::array()}};
-  if (suite.diversity_score) json["diversity_score"] = *suite.diversity_score;
+  Json json{{"runs_of_test", kRunsOfTest},         {"candidates", suite.tests.size()},
+            {"confirmed", suite.confirmed()},      {"of_confirmed", scores_json(suite.of_confirmed)},
+            {"of_all", scores_json(suite.of_all)}, {"tests", Json::array()}};
   for (const CompetitionTest& test : suite.tests) {
     Json one{{"name", test.name}, {"point", test.trial}, {"confirmed", test.confirmed}};
     for (const scenes::BoxConfig& box : test.boxes) {
@@ -133,11 +152,9 @@ std::string suite_words(const CompetitionSuite& suite) {
     text += fmt::format("{}  {}: {:.2f} m, {:g} points, score {:.2f}\n", test.confirmed ? "FAIL" : "----", test.name,
                         fmt::join(distances_m(test), ", "), test.mean_points, test.score);
   }
-  text += fmt::format("confirmed: {} of {} tests, unsafe in each of {} runs; the others do not count\n",
-                      suite.confirmed(), suite.tests.size(), kRunsOfTest);
-  text += fmt::format("failure score {:.2f}", suite.failure_score);
-  return text + (suite.diversity_score ? fmt::format(", diversity score {:.2f}\n", *suite.diversity_score)
-                                       : "; a diversity score needs two confirmed tests\n");
+  return text + fmt::format("confirmed: {} of {} tests, unsafe in each of {} runs: {}\nwith the other tests: {}\n",
+                            suite.confirmed(), suite.tests.size(), kRunsOfTest, scores_words(suite.of_confirmed),
+                            scores_words(suite.of_all));
 }
 
 }  // namespace hedgehop::sim

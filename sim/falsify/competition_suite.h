@@ -28,11 +28,16 @@ struct CompetitionTest {
   std::filesystem::path file;  ///< its scenario, if it is confirmed
 };
 
-/// Scores of the confirmed tests of a search. Tests that are not confirmed are listed, and do not count.
+/// Scores of several tests.
+struct CompetitionScores {
+  double failure = 0.0;             ///< sum of the tests' scores. Source: [KhatiriEtAl2025] eq. (3)
+  std::optional<double> diversity;  ///< nullopt with fewer than two tests
+};
+
+/// The tests of a search and their scores.
 struct CompetitionSuite {
   std::vector<CompetitionTest> tests;
-  double failure_score = 0.0;             ///< sum of the tests' scores. Source: [KhatiriEtAl2025] eq. (3)
-  std::optional<double> diversity_score;  ///< nullopt with fewer than two confirmed tests
+  CompetitionScores of_confirmed, of_all;
 
   size_t confirmed() const;
 };

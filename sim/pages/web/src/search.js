@@ -61,8 +61,9 @@ class SearchView {
   /** Adds the tests of the competition and their scores. */
   fillSuite(host, suite) {
     host.append(make('h3', '', 'Score of the UAV testing competition, 2025'));
-    host.append(make('p', '', `Failure score ${fixed(suite.failure_score, 2)}, diversity score ${suite.diversity_score === null ? '–' : fixed(suite.diversity_score, 2)}; ` +
-      `${suite.confirmed} of ${suite.candidates} tests are confirmed: unsafe in each of ${suite.runs_of_test} runs. The others do not count. ` +
+    const words = (scores) => `failure score ${fixed(scores.failure_score, 2)}, diversity score ${scores.diversity_score === null ? '–' : fixed(scores.diversity_score, 2)}`;
+    host.append(make('p', '', `${suite.confirmed} of ${suite.candidates} tests are confirmed, unsafe in each of ${suite.runs_of_test} runs: ${words(suite.of_confirmed)}. ` +
+      `With the other tests: ${words(suite.of_all)}. ` +
       'The tested system is not the competition\'s, so no ranking follows.'));
     const body = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
     const add = (tag, cells) => {
