@@ -6,6 +6,7 @@ usage: competition_suite_test.py PROGRAM SOURCE
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -140,6 +141,19 @@ class Suite(unittest.TestCase):
         again = json.loads((self.folder / "again/result.json").read_text())
         first, _ = next(iter(self.run_files(test)))
         self.assertEqual(again["trajectory_hash"], first["trajectory_hash"])
+
+    def test_page_lists_tests_and_scores(self):
+        if not (shutil.which("chromium") and shutil.which("node")):
+            self.skipTest("needs chromium and node")
+        visit = {"page": str(self.folder / "out/report.html"), "steps": "return document.getElementById('search-card').textContent"}
+        done = subprocess.run(["node", SOURCE / "tests/sim/pages/browser.mjs", "chromium"], input=json.dumps(visit) + "\n",
+                              capture_output=True, text=True, check=True)
+        seen = json.loads(done.stdout.splitlines()[0])
+        self.assertEqual(seen["errors"], [])
+        scores = self.suite["of_confirmed"]
+        self.assertIn(f"failure score {scores['failure_score']:.2f}, diversity score {scores['diversity_score']:.2f}", seen["value"])
+        for test in self.suite["tests"]:
+            self.assertIn(f"{test['mean_points']:.1f}{test['score']:.2f}{'yes' if test['confirmed'] else 'no'}", seen["value"])
 
 
 if __name__ == "__main__":
