@@ -115,7 +115,8 @@ TEST_F(Falsify, RejectsBadInputInOneLineBeforeAnyFlight) {
   EXPECT_THAT(fault("boxes.east=[14,-14]"), HasSubstr("'boxes.east': the lower end must come first"));
   EXPECT_THAT(fault("parameters=[{path: wind.speed, from: 3, to: 1}]"), HasSubstr("'from' must be less than 'to'"));
   EXPECT_THAT(fault("parameters=[{path: wind.sped, from: 0, to: 1}]"), HasSubstr("did you mean 'speed'?"));
-  EXPECT_THAT(fault("score=sbt"), HasSubstr("'score': must be one of robustness, sbft"));
+  EXPECT_THAT(fault("score=sbt"),
+              HasSubstr("unknown choice 'sbt' for 'score'; did you mean 'sbft'? allowed: robustness, sbft"));
   EXPECT_THAT(fault("design.method=direct"), HasSubstr("'direct' supports up to 5 unknowns; there are 11"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always (clearence > 1)\"]"), HasSubstr("did you mean 'clearance'?"));
   EXPECT_THAT(fault("set=[\"checks.0.formula=always[0,20] (clearance > 1)\"]"),
