@@ -20,7 +20,8 @@ namespace hedgehop::avoidance::flow_balance {
 class RangeRing {
  public:
   struct Options {
-    double memory_s = 4.0;   ///< lifetime of a point without a measurement in its direction, > 0
+    double memory_s = 4.0;   ///< lifetime of a point without a measurement in its direction, > 0: twice the time in
+                             ///< which a point 8 m away passes a blind spot at 2 m/s
     double release_s = 0.0;  ///< time constant with which the inverse range of a point decreases to a smaller
                              ///< measurement, >= 0; 0: at once
   };
