@@ -58,6 +58,14 @@ bool PassedObstacles::free(const Eigen::Vector3d& direction_W, double reach_m, A
   return std::ranges::none_of(hidden_, is_met) && (among == Among::hidden || std::ranges::none_of(visible_, is_met));
 }
 
+double PassedObstacles::nearest_m() const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const auto* points : {&hidden_, &visible_}) {
+    for (const Point& point : *points) nearest_m = std::min(nearest_m, (point.p_WP - p_WC_).norm());
+  }
+  return nearest_m;
+}
+
 std::vector<Eigen::Vector3d> PassedObstacles::points_W() const {
   std::vector<Eigen::Vector3d> points;
   for (const Point& point : hidden_) points.push_back(point.p_WP);

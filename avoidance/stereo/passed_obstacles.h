@@ -36,6 +36,8 @@ class PassedObstacles {
   bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity(),
             Among among = Among::hidden) const;
 
+  /// Returns the distance of the camera from the nearest point, in view or remembered, m; +infinity if there is none.
+  double nearest_m() const;
   /// Remembered points that are out of view, in W, m.
   std::vector<Eigen::Vector3d> points_W() const;
 

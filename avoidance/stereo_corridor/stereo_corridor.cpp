@@ -8,9 +8,11 @@
 
 #include "avoidance/heading.h"
 #include "avoidance/stereo/passed_obstacles.h"
+#include "avoidance/stereo_corridor/climb.h"
 #include "avoidance/stereo_corridor/corridor_search.h"
 #include "avoidance/stereo_corridor/flight_path.h"
 #include "avoidance/stereo_corridor/goal_seeking.h"
+#include "avoidance/stereo_corridor/retreat.h"
 #include "avoidance/stereo_corridor/stopping_speed.h"
 #include "avoidance/stereo_corridor/target_overlay.h"
 #include "sim/fields/bounds.h"
@@ -23,6 +25,8 @@ using stereo::DisparitySource;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kLookRound = "look_round";  ///< [Andert2007] sec. 4.3.4, step 5
+/// Distance from obstacles at the end of a stop and in a hover, m: the position estimate may drift by it in 6 s.
+constexpr double kStandoffM = 1.5;
 
 class StereoCorridor final : public Module {
  public:
@@ -57,7 +61,7 @@ class StereoCorridor final : public Module {
     stereo::PassedObstaclesConfig passed;
     if (!config_.additions.memory) passed.radius_m = 0.0;
     passed_.emplace(passed);
-    acceleration_mps2_ = setup.limits.acceleration_mps2;
+    climb_ = {config_.climb_rate_mps, setup.limits.acceleration_mps2};
     hull_ahead_m_ = std::max(0.0, setup.limits.radius_m - source_->X_BC().translation().x());
     target_.reset();
     last_.reset();
@@ -67,6 +71,7 @@ class StereoCorridor final : public Module {
     hover_s_ = 0.0;
     turn_ = 1.0;
     turn_back_ = {};
+    retreat_ = Retreat(kStandoffM);
     path_ = {};
   }
 
@@ -80,7 +85,9 @@ class StereoCorridor final : public Module {
     const NavigationState& navigation = observation.navigation;
     const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source_->X_BC();
     R_WC_ = X_WC.linear();
+    level_mps_ = (navigation.q_WB_est * navigation.v_WB_B_est).head<2>().norm();
     passed_->update(observation.t_ns, pyramid_, source_->geometry(), X_WC);
+    const auto retreat_W = retreat_.update(navigation.p_WB_est, passed_->nearest_m() - hull_ahead_m_);
 
     const Eigen::Vector3d aim_W =
         follows_path() ? path_.ahead_W(navigation.p_WB_est, observation.goal.p_WG) : observation.goal.p_WG;
@@ -92,8 +99,13 @@ class StereoCorridor final : public Module {
 
     Decision decision;
     decision.command = steer(observation);
-    if (arrives) decision.command = PositionCommand{observation.goal.p_WG, heading_rad(navigation.q_WB_est)};
-    decision.status = arrives ? "arrive" : turns_back ? "turn_back" : target_ ? name_of(target_->found_by) : kLookRound;
+    decision.status = turns_back ? "turn_back" : target_ ? name_of(target_->found_by) : kLookRound;
+    if (config_.additions.goal_first && !target_ && retreat_W) {
+      decision = {PositionCommand{*retreat_W, heading_rad(navigation.q_WB_est)}, "retreat", {}};
+    }
+    if (arrives) {
+      decision = {PositionCommand{observation.goal.p_WG, heading_rad(navigation.q_WB_est)}, "arrive", {}};
+    }
     const double valid = cv::countNonZero(disparity16 >= 0) / static_cast<double>(disparity16.total());
     decision.signals = {target_ ? target_->pixel.x : kUnknown, target_ ? target_->pixel.y : kUnknown,
                         target_ && std::isfinite(target_->z_m) ? target_->z_m : kUnknown, static_cast<double>(tests),
@@ -136,8 +148,18 @@ class StereoCorridor final : public Module {
   }
 
   CorridorSearch search() const {
-    return {pyramid_, source_->geometry(), config_.corridor,
-            [this](const Eigen::Vector3d& ray_C) { return passed_->free(R_WC_ * ray_C); }};
+    return {pyramid_, source_->geometry(), config_.corridor, [this](const Eigen::Vector3d& ray_C) {
+              const Eigen::Vector3d ray_W = R_WC_ * ray_C;
+              return passed_->free(ray_W) && can_follow(ray_W);
+            }};
+  }
+
+  /// Whether the vehicle can climb along a ray and stay in its corridor. The other half of the corridor is for the
+  /// hull. Above a falling ray, the vehicle is in view of its camera.
+  bool can_follow(const Eigen::Vector3d& ray_W) const {
+    const double slope = slope_of(ray_W);
+    return !config_.additions.goal_first || slope <= 0.0 ||
+           lag_behind_ray_m(slope, level_mps_, climb_) < 0.5 * config_.corridor.radius_m;
   }
 
   /// Chooses the next target or, if there is none, the side to turn to: that of the last target or of a passed goal.
@@ -173,33 +195,43 @@ class StereoCorridor final : public Module {
     all_tests_ += tests;
   }
 
-  double speed_mps(const Observation& observation) const {
+  double speed_mps(const Observation& observation, double slope) const {
     if (!config_.additions.goal_first) return config_.speed_mps;
-    const double goal_m = (observation.goal.p_WG - observation.navigation.p_WB_est).head<2>().norm();
-    const Eigen::Vector3d v_WB_C = source_->X_BC().linear().transpose() * observation.navigation.v_WB_B_est;
-    return std::min(approach_speed_mps(config_.speed_mps, goal_m, acceleration_mps2_),
-                    stopping_speed_mps(pyramid_, source_->geometry(), config_.corridor.radius_m, v_WB_C,
-                                       acceleration_mps2_, hull_ahead_m_));
+    const NavigationState& navigation = observation.navigation;
+    const double goal_m = (observation.goal.p_WG - navigation.p_WB_est).head<2>().norm();
+    const Eigen::Vector3d v_WB_C = source_->X_BC().linear().transpose() * navigation.v_WB_B_est;
+    return std::min({approach_speed_mps(config_.speed_mps, goal_m, climb_.acceleration_mps2),
+                     climbing_speed_mps(slope, climb_),
+                     stopping_speed_mps(pyramid_, source_->geometry(), config_.corridor.radius_m, v_WB_C,
+                                        climb_.acceleration_mps2, hull_ahead_m_ + kStandoffM)});
+  }
+
+  /// The modified law stays on the ray, because only its corridor is free. The published law climbs as fast as it can.
+  double altitude_m(const Observation& observation, double slope, double speed_mps) const {
+    const double now_m = -observation.navigation.p_WB_est.z(), goal_m = -observation.goal.p_WG.z();
+    const bool to_goal = target_->found_by == FoundBy::goal;
+    if (config_.additions.goal_first) {
+      constexpr double kHoldM = 0.5;  // within this distance from the goal's altitude, it is held
+      const double along_m = altitude_along_ray_m(now_m, slope, speed_mps);
+      const double reach_m = std::max(kHoldM, std::abs(along_m - now_m));
+      return to_goal ? std::clamp(goal_m, now_m - reach_m, now_m + reach_m) : along_m;
+    }
+    constexpr double kLeadS = 2.0;  // look-ahead time along the ray to the target for the altitude
+    return to_goal ? goal_m : now_m + kLeadS * config_.speed_mps * slope;
   }
 
   /// Flies in the direction of view; [Andert2007] eq. (18) for the target in B.
   Command steer(const Observation& observation) {
-    const NavigationState& navigation = observation.navigation;
     if (!target_) return HoverCommand{turn_ * config_.yaw_rate_radps};
     const double z_m = std::min(target_->z_m, CorridorSearch::kLookAheadM);
     const Eigen::Vector3d p_BP_B = source_->X_BC() * (z_m * source_->geometry().ray_at_unit_depth(target_->pixel));
-    const Eigen::Vector3d p_BP_W = navigation.q_WB_est * p_BP_B;
+    const Eigen::Vector3d p_BP_W = observation.navigation.q_WB_est * p_BP_B;
     const Eigen::Vector2d level_W = p_BP_W.head<2>();
+    const double slope = slope_of(p_BP_W), speed = speed_mps(observation, slope);
     VelocityCommand command;
-    command.v_WB_W = speed_mps(observation) * level_W.normalized();
+    command.v_WB_W = speed * level_W.normalized();
     command.heading_rad = std::atan2(level_W.y(), level_W.x());
-    command.altitude_m = -observation.goal.p_WG.z();
-    if (target_->found_by != FoundBy::goal) {
-      constexpr double kLeadS = 2.0;  // look-ahead time along the ray to the target for the altitude
-      const double slope = p_BP_W.z() / level_W.norm();
-      command.altitude_m = -(navigation.p_WB_est.z() + kLeadS * config_.speed_mps * slope);
-    }
-    command.altitude_m = std::max(command.altitude_m, config_.lowest_m);
+    command.altitude_m = std::max(altitude_m(observation, slope, speed), config_.lowest_m);
     return command;
   }
 
@@ -231,13 +263,15 @@ class StereoCorridor final : public Module {
   std::optional<DisparitySource> source_;
   TargetTracker tracker_;
   std::optional<stereo::PassedObstacles> passed_;
-  double acceleration_mps2_ = 0.0;                      ///< maximum
+  ClimbLimits climb_;
   double hull_ahead_m_ = 0.0;                           ///< extent of the hull ahead of the camera
+  double level_mps_ = 0.0;                              ///< horizontal speed, as estimated
   Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  ///< as estimated
   vision::stereo::DepthPyramid pyramid_;
   cv::Mat smooth_, matched16_;
   std::optional<Target> target_;
   TurnBack turn_back_;
+  Retreat retreat_;
   FlightPath path_;
   std::optional<Decision> last_;
   int64_t first_t_ns_ = -1, last_t_ns_ = -1;

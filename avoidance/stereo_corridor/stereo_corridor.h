@@ -14,7 +14,7 @@ namespace hedgehop::avoidance::stereo_corridor {
 
 /// Additions of the modified law. Each can be switched off to measure its effect.
 struct Additions {
-  bool goal_first = true;  ///< goal_seeking.h, stopping_speed.h
+  bool goal_first = true;  ///< goal_seeking.h, stopping_speed.h, climb.h, retreat.h
   bool memory = true;      ///< stereo::PassedObstacles
   bool sky = true;         ///< vision::stereo::SkyAmong::all, in a smoothed image
 };
@@ -40,6 +40,7 @@ struct StereoCorridorConfig {
   int sky_brightness = 140;  ///< tau_brightness
   CorridorSize corridor;     ///< r and tau_target
   double speed_mps = 5.0;
+  double climb_rate_mps = 1.0;
   double lowest_m = 2.0;
   double yaw_rate_radps = 0.3490658503988659;
 };
@@ -54,8 +55,8 @@ void describe(Visitor& v, fields::ConfigOf<StereoCorridorConfig> auto& c) {
     {.meaning = "published: fly along the straight path from the start to the goal while its corridor is free, as the "
                 "paper's aircraft; otherwise the flight has no path, only the direction in which it flies"});
   v("goal_first", c.additions.goal_first,
-    {.meaning = "modified: fly to the goal if its direction is free, decelerate near it and near obstacles ahead, and "
-                "turn back to a missed goal"});
+    {.meaning = "modified: fly to the goal if its direction is free, decelerate near it, near obstacles ahead and "
+                "to climb, and turn back to a missed goal"});
   v("memory", c.additions.memory, {.meaning = "modified: remember obstacles that have left the image"});
   v("sky", c.additions.sky, {.meaning = "modified: search for sky also among matched pixels, in a smoothed image"});
   v("unknown", c.unknown,
@@ -80,6 +81,12 @@ void describe(Visitor& v, fields::ConfigOf<StereoCorridorConfig> auto& c) {
   v("target_distance", c.corridor.target_m,
     {.unit = "m", .above = 0.0, .meaning = "distance up to which a corridor must be free"});
   v("speed", c.speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed along a free corridor"});
+  v("climb_rate", c.climb_rate_mps,
+    {.unit = "m/s",
+     .above = 0.0,
+     .meaning =
+         "modified: maximum climb rate of the autopilot; along a steep corridor the vehicle flies so slowly that "
+         "it suffices"});
   v("lowest", c.lowest_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum altitude, above the scene's origin"});
   v("yaw_rate", c.yaw_rate_radps,
     {.unit = "deg/s", .above = 0.0, .at_most = 360.0, .meaning = "turn rate if no corridor is free"});

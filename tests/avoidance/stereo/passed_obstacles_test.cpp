@@ -54,6 +54,16 @@ TEST(PassedObstacles, ObstacleOutOfViewBlocksThePathsWithinTheRadius) {
   }
 }
 
+TEST(PassedObstacles, NearestIsInViewOrRemembered) {
+  PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
+  EXPECT_TRUE(std::isinf(passed.nearest_m()));
+  passed.update(0, block_at({152, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
+  const double range_m = 6.0 * std::hypot(1.0, (156 - 79.5) / 128.0);
+  EXPECT_NEAR(passed.nearest_m(), range_m, 0.05);
+  passed.update(kSecondNs / 10, kSky, kGeometry, looking(-0.3, {0.0, -1.0, 0.0}));
+  EXPECT_NEAR(passed.nearest_m(), std::hypot(6.0, 6.0 * (156 - 79.5) / 128.0 + 1.0), 0.05);
+}
+
 TEST(PassedObstacles, PathThatEndsInFrontOfAnObstacleIsFree) {
   PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
   passed.update(0, block_at({152, 56, 8, 8}, 6.0), kGeometry, looking(0.0));

@@ -107,6 +107,39 @@ TEST(StereoCorridor, DoesNotTurnIntoAnObstacleThatItIsPassing) {
   }
 }
 
+/// Flies to a goal at an elevation, 40 m ahead.
+Decision to_goal_above(double elevation_deg, const Eigen::Vector2d& v_WB_W, Law law = Law::modified) {
+  StereoCorridorConfig config;
+  config.law = law;
+  return Pilot(config).see({}, v_WB_W, 0.0, {40.0, 0.0}, 6.0 + 40.0 * std::tan(elevation_deg * M_PI / 180.0));
+}
+
+TEST(StereoCorridor, SlowsDownSoThatItsClimbIsAsSteepAsItsCorridor) {
+  const double kClimbMps = StereoCorridorConfig().climb_rate_mps, kOnePixel = 2.0 / kSizePx;
+  for (const double elevation_deg : {14.0, 18.0}) {
+    const Decision decision = to_goal_above(elevation_deg, {2.0, 0.0});
+    EXPECT_EQ(decision.status, "cruise");
+    const double slope = kClimbMps / velocity(decision).v_WB_W.norm();
+    EXPECT_NEAR(slope, std::tan(elevation_deg * M_PI / 180.0), 2.0 * kOnePixel);
+  }
+  EXPECT_NEAR(velocity(to_goal_above(5.0, {2.0, 0.0})).v_WB_W.norm(), 5.0, 1e-9);
+}
+
+TEST(StereoCorridor, RejectsACorridorThatItCannotClimbIntoAtItsSpeed) {
+  // At 5 m/s it would get 1.1 m below a ray of 20 degrees, more than half the radius of 1.5 m.
+  EXPECT_NE(to_goal_above(20.0, {5.0, 0.0}).status, "cruise");
+  EXPECT_EQ(to_goal_above(20.0, {2.0, 0.0}).status, "cruise");
+}
+
+TEST(StereoCorridor, BacksOffBeforeItTurnsNextToAnObstacle) {
+  Pilot pilot;
+  pilot.see({wall(14.0, -2.0, M_PI, 4.0)});  // a free corridor at a safe distance
+  EXPECT_EQ(pilot.see({wall(9.0, 0.0, M_PI)}, {0.1, 0.0}, 0.0).status, "look_round");
+  const Decision near = pilot.see({wall(9.0, 0.0, M_PI)}, {0.1, 0.0}, 7.0);
+  EXPECT_EQ(near.status, "retreat");
+  EXPECT_NEAR(std::get<PositionCommand>(near.command).p_WB.x(), 0.0, 1e-9);
+}
+
 TEST(StereoCorridor, PublishedLawKeepsTheDirectionOfFlightAndModifiedLawFliesToTheGoal) {
   const Eigen::Vector2d goal_W{100.0, 50.0};
   const auto flown = [&](Law law) {

@@ -38,9 +38,15 @@ TEST(StoppingSpeed, CountsObstaclesInTheDirectionOfFlightOnly) {
   EXPECT_LT(speed_mps(32, 8.0, up), 5.0);
 }
 
-TEST(StoppingSpeed, IsUnlimitedInAHoverAndBackwards) {
+TEST(StoppingSpeed, CountsTheNearestSeenSpaceForADirectionOutsideTheImage) {
+  const Vector3d steeply_up(0.0, -3.0, 1.0), steeply_down(0.0, 3.0, 1.0);
+  EXPECT_LT(speed_mps(32, 8.0, steeply_up), 5.0);
+  EXPECT_TRUE(std::isinf(speed_mps(32, 8.0, steeply_down)));
+}
+
+TEST(StoppingSpeed, IsUnlimitedInAHoverAndLowestBackwards) {
   EXPECT_TRUE(std::isinf(speed_mps(64, 2.0, {0.0, 0.0, 0.1})));
-  EXPECT_TRUE(std::isinf(speed_mps(64, 2.0, {0.0, 0.0, -3.0})));
+  EXPECT_EQ(speed_mps(0, 2.0, {0.0, 0.0, -3.0}), 0.5);
 }
 
 TEST(StoppingSpeed, KeepsADirectionOfFlight) { EXPECT_EQ(speed_mps(64, 0.5, {0.0, 0.0, 1.0}), 0.5); }
