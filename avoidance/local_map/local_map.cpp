@@ -75,7 +75,7 @@ class LocalMap final : public Module {
     Observation reckoned = observation;
     reckoned.navigation = dead_reckoning_.update(observation.navigation, t_s);
     reckoned.goal.p_WG += reckoned.navigation.p_WB_est - observation.navigation.p_WB_est;
-    if (!around_->take(observation.frames)) {
+    if (!around_->take(observation.frames, observation.navigation)) {
       if (last_) return *last_;
       return {HoverCommand{}, "wait", std::vector<double>(6, std::nan(""))};
     }

@@ -47,6 +47,16 @@ MovingObstacleTracker::Config tracking(const LocalMapConfig& config, const visio
           .nearest_m = geometry.focal_px * geometry.baseline_m / most_px};
 }
 
+/// Returns half the side of the window of the matcher, px.
+int half_window_px(const LocalMapConfig& config) {
+  switch (config.depth) {
+    case DisparitySource::From::stereo: return config.stereo.block_px / 2;
+    case DisparitySource::From::motion: return vision::motion::PlaneSweep::kHalfWindowPx;
+    case DisparitySource::From::camera: break;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Needs Surroundings::needs(const LocalMapConfig& config) {
@@ -101,8 +111,8 @@ void Surroundings::begin(const NavigationState& navigation) {
   }
 }
 
-bool Surroundings::take(std::span<const CameraFrame> frames) {
-  for (CameraPair& pair : pairs_) pair.fresh = pair.source.update(frames);
+bool Surroundings::take(std::span<const CameraFrame> frames, const NavigationState& navigation) {
+  for (CameraPair& pair : pairs_) pair.fresh = pair.source.update(frames, navigation);
   return std::ranges::any_of(pairs_, &CameraPair::fresh);
 }
 
@@ -122,15 +132,16 @@ void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation
   constexpr double kUpright = 0.7;  // minimum z component of the y axis of a camera with ground below and sky above
   stereo::DisparitySource& source = pair.source;
   const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
-  const bool matches = config_.depth == DisparitySource::From::stereo;
+  const bool matches = config_.depth != DisparitySource::From::camera;
   if (matches) vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
-  pair.blocks.build(source.disparity16(), source.grey(), matches ? config_.stereo.block_px / 2 : 0);
+  pair.blocks.build(source.disparity16(), source.grey(), half_window_px(config_), source.sigma16());
   const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
   if (config_.sky && !source.grey().empty() && down_C.y() > kUpright) {
     vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
   }
   map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
-  track_moving_obstacles(t_s, pair, X_WC);
+  // Depth from motion assumes that everything else stands.
+  if (config_.depth != DisparitySource::From::motion) track_moving_obstacles(t_s, pair, X_WC);
 }
 
 void Surroundings::see(const NavigationState& navigation, double t_s) {

@@ -29,7 +29,7 @@ class Surroundings {
   Surroundings(const LocalMapConfig& config, const Setup& setup, const HullDiscs& hull_discs);
 
   /// @return whether the frames contain a new image of any pair.
-  bool take(std::span<const CameraFrame> frames);
+  bool take(std::span<const CameraFrame> frames, const NavigationState& navigation);
   /// Starts a flight. The hull and a strip ahead count as free, up to the distance at which the camera sees the full
   /// width and height of the vehicle.
   void begin(const NavigationState& navigation);

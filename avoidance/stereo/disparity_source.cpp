@@ -9,6 +9,7 @@ namespace hedgehop::avoidance::stereo {
 namespace {
 
 constexpr bool kPinhole = true;
+constexpr float kMaxSigmaPerM = 0.1F;  // of depth from motion, 1/m; free space then ends nearer than 5 m
 
 const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
   const auto camera = std::ranges::find(setup.cameras, role, &MountedCamera::role);
@@ -62,6 +63,7 @@ Needs DisparitySource::needs(From from, Grey grey, const std::string& pair) {
   using Channel = CameraNeed::Channel;
   const CameraNeed left{role_of(pair, kLeft), Channel::grey, kPinhole};
   const CameraNeed depth{role_of(pair, kDepth), Channel::depth, kPinhole};
+  if (from == From::motion) return {{{role_of(pair, kFront), Channel::grey, kPinhole}}};
   if (from == From::stereo) return {{left, {role_of(pair, kRight), Channel::grey, kPinhole}}};
   if (grey == Grey::unused) return {{depth}};
   return {{left, depth}};
@@ -74,20 +76,25 @@ DisparitySource::DisparitySource(From from, Grey grey, const vision::stereo::Ste
       left_(role_of(pair, kLeft)),
       right_(role_of(pair, kRight)),
       depth_(role_of(pair, kDepth)),
+      front_(role_of(pair, kFront)),
       matcher_(config) {
-  const MountedCamera& camera = camera_of(setup, from == From::stereo ? left_ : depth_);
+  const MountedCamera& camera = camera_of(setup, from == From::stereo   ? left_
+                                                 : from == From::motion ? front_
+                                                                        : depth_);
   if (from == From::stereo) {
     geometry_ = geometry_of_pair(camera, camera_of(setup, right_));
   } else {
+    if (from == From::motion) motion_.emplace(camera);
     const vision::camera::PinholeCamera lens = camera.model.pinhole();
     geometry_ = {lens.focal_x_px, lens.center_u_px, lens.center_v_px, kBaselineM};
-    if (grey == Grey::needed) require_one_view(camera_of(setup, left_), camera);
+    if (from == From::camera && grey == Grey::needed) require_one_view(camera_of(setup, left_), camera);
   }
   X_BC_ = camera.X_BC;
   image_ = {camera.model.width_px, camera.model.height_px};
 }
 
-bool DisparitySource::update(std::span<const CameraFrame> frames) {
+bool DisparitySource::update(std::span<const CameraFrame> frames, const NavigationState& navigation) {
+  if (from_ == From::motion) return compare(frames, navigation);
   return from_ == From::stereo ? match(frames) : convert(frames);
 }
 
@@ -113,6 +120,31 @@ bool DisparitySource::convert(std::span<const CameraFrame> frames) {
   cv::divide(geometry_.disparity16(1.0), depth_m_, disparity);         // 0 if the depth is infinite
   disparity.setTo(vision::stereo::kNoDisparity, ~(disparity >= 0.0));  // NaN compares false
   disparity.convertTo(disparity16_, CV_16S);
+  return true;
+}
+
+bool DisparitySource::compare(std::span<const CameraFrame> frames, const NavigationState& navigation) {
+  const CameraFrame* front = frame_of(frames, front_);
+  if (!front || front->t_ns <= t_ns_) return false;
+  t_ns_ = front->t_ns;
+  front->image.copyTo(grey_);
+  const vision::motion::InverseDepth depth = motion_->update(front->image, navigation, 1e-9 * t_ns_);
+  // Each pixel of the reduced depth covers four of the image.
+  disparity16_.create(image_, CV_16SC1);
+  sigma16_.create(image_, CV_16SC1);
+  constexpr int kReduction = vision::motion::PlaneSweep::kReduction;
+  const auto units = static_cast<float>(geometry_.disparity16(1.0));
+  for (int v = 0; v < image_.height; ++v) {
+    const auto* const per_m = depth.per_m.ptr<float>(v / kReduction);
+    const auto* const sigma_per_m = depth.sigma_per_m.ptr<float>(v / kReduction);
+    for (int u = 0; u < image_.width; ++u) {
+      const float sigma = sigma_per_m[u / kReduction];
+      const bool known = sigma <= kMaxSigmaPerM;
+      disparity16_.at<int16_t>(v, u) =
+          known ? static_cast<int16_t>(std::lround(units * per_m[u / kReduction])) : vision::stereo::kNoDisparity;
+      sigma16_.at<int16_t>(v, u) = known ? static_cast<int16_t>(std::ceil(units * sigma)) : int16_t{0};
+    }
+  }
   return true;
 }
 

@@ -79,6 +79,19 @@ void read_disparity(const cv::Mat& disparity16, const cv::Mat& smeared, int row,
   block.near16 = count < kMinNear ? int16_t{-1} : largest.at(std::max(2, count / 16));
 }
 
+/// Returns the mean over the matched pixels of a block, rounded up.
+int16_t mean_sigma16(const cv::Mat& disparity16, const cv::Mat& sigma16, int row, int col) {
+  int sum = 0, count = 0;
+  for (int v = row * kPx; v < (row + 1) * kPx; ++v) {
+    for (int u = col * kPx; u < (col + 1) * kPx; ++u) {
+      if (disparity16.at<int16_t>(v, u) < 0) continue;
+      sum += sigma16.at<int16_t>(v, u);
+      ++count;
+    }
+  }
+  return static_cast<int16_t>(count > 0 ? (sum + count - 1) / count : -1);
+}
+
 void read_grey(const cv::Mat& grey, int row, int col, DepthBlock& block) {
   constexpr int kHalf = kPx / 2;
   std::array<int, 4> quarter{};
@@ -116,7 +129,7 @@ bool is_lined(const cv::Mat& valleys, int row, int col) {
 
 }  // namespace
 
-void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px) {
+void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px, const cv::Mat& sigma16) {
   smeared_ = disparity16 < 0;
   if (smear_px > 0) {
     // Areas that contain a complete window of unmatched pixels, enlarged by half a window.
@@ -131,6 +144,7 @@ void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int sme
   for (int row = 0; row < rows_; ++row) {
     for (int col = 0; col < cols_; ++col) {
       read_disparity(disparity16, smeared_, row, col, at(row, col));
+      if (!sigma16.empty()) at(row, col).sigma16 = mean_sigma16(disparity16, sigma16, row, col);
       if (grey.empty()) continue;
       read_grey(grey, row, col, at(row, col));
       at(row, col).lined = is_lined(valleys_, row, col);

@@ -129,10 +129,14 @@ void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeom
   for (const size_t slot : hit_slots_) hit_[slot] = 0;
 }
 
+double OccupancyMap::noise_px(const DepthBlock& block) const {
+  return block.sigma16 < 0 ? config_.noise_px : std::max<int>(block.sigma16, 1) / stereo::kDisparityUnits;
+}
+
 /// Computes the z in C up to which each block is free. It is limited by nearer surfaces in adjacent blocks, whose edges
 /// may be inside the block. Blocks with a thin object get kInDoubt.
 void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
-  const double beyond16 = kSigmas * config_.noise_px * stereo::kDisparityUnits;
+  const auto beyond16 = [&](const DepthBlock& block) { return kSigmas * noise_px(block) * stereo::kDisparityUnits; };
   clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
@@ -140,13 +144,14 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
       float& clear_m = clear_m_[static_cast<size_t>(row * blocks.cols() + col)];
       if (block.kind == DepthBlock::Kind::line) clear_m = kInDoubt;
       if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky) continue;
-      int near16 = block.foot16;
+      double near16 = block.foot16 < 0 ? -1.0 : block.foot16 + kSigmas * config_.noise_px * stereo::kDisparityUnits;
       for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
         for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
-          near16 = std::max<int>(near16, blocks.at(v, u).near16);
+          const DepthBlock& other = blocks.at(v, u);
+          if (other.near16 >= 0) near16 = std::max(near16, other.near16 + beyond16(other));
         }
       }
-      double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / (near16 + beyond16);
+      double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / near16;
       if (block.kind == DepthBlock::Kind::sky) z_m = std::min(z_m, config_.far_m);
       clear_m = static_cast<float>(z_m);
     }
@@ -159,15 +164,14 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
   hits_.clear();
   hit_slots_.clear();
   // z^2 sigma_px / (f b) = sigma_m
-  const auto max_depth_m = [&](double sigma_m) {
-    return std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / config_.noise_px);
+  const auto min_disparity16 = [&](const DepthBlock& block, double sigma_m) {
+    return geometry.disparity16(
+        std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / noise_px(block)));
   };
-  const double placed16 = geometry.disparity16(max_depth_m(kPlacedM)),
-               reported16 = geometry.disparity16(max_depth_m(kReportedM));
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.near16 < reported16 || block.near16 <= 0) continue;
+      if (block.near16 <= 0 || block.near16 < min_disparity16(block, kReportedM)) continue;
       const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
                              row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
       const Eigen::Vector3d p_W =
@@ -177,7 +181,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
       const size_t at = slot(voxel);
       if (hit_[at]) continue;
       hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
-      if (block.near16 < placed16) continue;
+      if (block.near16 < min_disparity16(block, kPlacedM)) continue;
       const auto holds = [&](const MovingDisc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
       if (std::ranges::any_of(moving, holds)) continue;
       hit_[at] = 1;

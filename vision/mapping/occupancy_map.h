@@ -16,7 +16,7 @@ struct OccupancyMapConfig {
   double voxel_m = 0.3;   ///< edge, > 0
   int across = 160;       ///< number of voxels north and east, > 0
   int layers = 12;        ///< number of voxels down, > 0
-  double noise_px = 0.5;  ///< 1-sigma of a disparity, > 0
+  double noise_px = 0.5;  ///< 1-sigma of a disparity whose block does not give it, > 0
   double far_m = 22.0;    ///< range up to which sky marks voxels as free, > 0
 };
 
@@ -74,6 +74,8 @@ class OccupancyMap {
  private:
   size_t slot(const Index& voxel) const;
   bool contains(const Index& voxel) const;
+  /// Returns the 1-sigma error of the disparity of a block, px.
+  double noise_px(const DepthBlock& block) const;
   void find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry);
   void add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
                 std::span<const MovingDisc> moving);

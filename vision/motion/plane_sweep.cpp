@@ -1,0 +1,348 @@
+#include "vision/motion/plane_sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "vision/flow/wide_integers.h"
+
+namespace hedgehop::vision::motion {
+namespace {
+
+constexpr int kDetail = 63;              // limit of the difference from the local mean, grey levels
+constexpr int kLocalPx = 15;             // side of the area of this mean
+constexpr double kMaxStepPx = 2.0;      // displacement from plane to plane in the image corner
+constexpr double kOtherPx = 1.5;         // displacement from which another depth is a different match
+constexpr double kInterpolatedPx = 0.8;  // displacement to the costs on both sides of the minimum
+constexpr int kUniquePercent = 10;       // required margin of the minimum over different matches
+constexpr double kMaxMatchPx = 0.3;      // maximum error of a match by noise; beyond it the bound is too small
+constexpr int16_t kNoCost = std::numeric_limits<int16_t>::max();
+
+/// Pixels and weights of linear interpolation along one axis; -1 outside the image. Weights in 32nds.
+struct Axis {
+  std::vector<int> first, weight;
+};
+constexpr int kUnit = 32;
+
+Axis sample_axis(int size, double center, double scale, double shift) {
+  Axis axis;
+  for (int i = 0; i < size; ++i) {
+    const double at = center + scale * (i - center - shift);
+    const int in_units = static_cast<int>(std::floor(kUnit * at + 0.5));
+    const int first = std::min(in_units >> 5, size - 2);
+    const bool inside = in_units >= 0 && in_units <= kUnit * (size - 1);
+    axis.first.push_back(inside ? first : -1);
+    axis.weight.push_back(inside ? in_units - kUnit * first : 0);
+  }
+  return axis;
+}
+
+HEDGEHOP_WIDE void blend(const uint8_t* upper, const uint8_t* lower, int weight, int count, int16_t* blended) {
+  for (int i = 0; i < count; ++i) blended[i] = static_cast<int16_t>(upper[i] * (kUnit - weight) + lower[i] * weight);
+}
+
+/// Replaces the row that leaves the window by the one that enters, in sums over the columns of the window.
+HEDGEHOP_WIDE void replace_row(const uint8_t* leaving, const uint8_t* entering, int count, int16_t* sums) {
+  for (int i = 0; i < count; ++i) sums[i] = static_cast<int16_t>(sums[i] + entering[i] - leaving[i]);
+}
+
+HEDGEHOP_WIDE void absolute_difference(const uint8_t* a, const uint8_t* b, int count, uint8_t* difference) {
+  for (int i = 0; i < count; ++i) difference[i] = a[i] > b[i] ? a[i] - b[i] : b[i] - a[i];
+}
+
+template <int kSides>
+HEDGEHOP_WIDE void sum_columns(const int16_t* sums, int count, int16_t* costs) {
+  for (int i = 0; i < count; ++i) {
+    int16_t sum = 0;
+    for (int side = -kSides; side <= kSides; ++side) sum = static_cast<int16_t>(sum + sums[i + side]);
+    costs[i] = sum;
+  }
+}
+
+HEDGEHOP_WIDE void keep_smaller(const int16_t* costs, int16_t plane, size_t count, int16_t* best, int16_t* best_plane) {
+  for (size_t i = 0; i < count; ++i) {
+    best_plane[i] = costs[i] < best[i] ? plane : best_plane[i];
+    best[i] = costs[i] < best[i] ? costs[i] : best[i];
+  }
+}
+
+HEDGEHOP_WIDE void keep_smaller_outside(const int16_t* costs, int16_t plane, size_t count, const int16_t* first,
+                                        const int16_t* last, int16_t* second) {
+  for (size_t i = 0; i < count; ++i) {
+    const int16_t cost = (plane < first[i]) | (plane > last[i]) ? costs[i] : kNoCost;
+    second[i] = cost < second[i] ? cost : second[i];
+  }
+}
+
+constexpr double kNoLength = 1e-12;
+
+/// Returns the variance of a match caused by noise: the Cramer-Rao bound for two noisy images.
+/// @param along_px  direction in which the match moves.
+double noise_px2(const Eigen::Vector3d& gradients, const Eigen::Vector2d& along_px, const MatchNoise& noise) {
+  const Eigen::Vector2d e = along_px / std::max(along_px.norm(), kNoLength);
+  const double texture =
+      e.x() * e.x() * gradients[0] + 2.0 * e.x() * e.y() * gradients[1] + e.y() * e.y() * gradients[2];
+  return 2.0 * noise.grey * noise.grey / std::max(texture, kNoLength);
+}
+
+cv::Mat detail_of(const cv::Mat& image) {
+  cv::Mat mean, detail;
+  cv::boxFilter(image, mean, CV_8U, {kLocalPx, kLocalPx});
+  cv::subtract(image, mean, detail, cv::noArray(), CV_16S);
+  cv::min(cv::max(detail, -kDetail), kDetail, detail);
+  detail.convertTo(detail, CV_8U, 1.0, kDetail);
+  return detail;
+}
+
+}  // namespace
+
+Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CK, double per_m, double focal_px) {
+  const double depth_ratio = 1.0 - per_m * p_CK.z();  // z in K divided by z in C
+  return focal_px / (depth_ratio * depth_ratio) * (ray_C.head<2>() * p_CK.z() - p_CK.head<2>());
+}
+
+double sigma_of_inverse_depth(const Eigen::Vector3d& ray_C, const CameraMotion& motion, double per_m, double focal_px,
+                              const Eigen::Vector3d& gradients, const MatchNoise& noise) {
+  const Eigen::Vector2d along_px = displacement(ray_C, motion.p_CK, per_m, focal_px);
+  const double length = along_px.norm();
+  const Eigen::Vector2d e = along_px / std::max(length, kNoLength);
+  const double inclined_px = noise.share * per_m * length;
+  const double match_px2 =
+      noise_px2(gradients, along_px, noise) + noise.floor_px * noise.floor_px + inclined_px * inclined_px;
+  // Derivatives of the place in the key image along e with respect to p_CK and to a rotation.
+  const double depth_ratio = 1.0 - per_m * motion.p_CK.z();
+  const double radial = e.dot(ray_C.head<2>() - per_m * motion.p_CK.head<2>()) / depth_ratio;
+  const double sensitivity = std::sqrt(1.0 + radial * radial);
+  const double p_px = focal_px * per_m / depth_ratio * sensitivity * motion.sigma_p_m;
+  const double turn_px = focal_px * sensitivity * motion.sigma_rad;
+  return std::sqrt(match_px2 + p_px * p_px + turn_px * turn_px) / length;
+}
+
+PlaneSweep::PlaneSweep(const camera::PinholeCamera& camera, const MatchNoise& noise)
+    : width_(camera.width_px / kReduction),
+      height_(camera.height_px / kReduction),
+      focal_(camera.focal_x_px / kReduction),
+      center_u_((camera.center_u_px - 0.5) / kReduction),
+      center_v_((camera.center_v_px - 0.5) / kReduction),
+      noise_(noise) {
+  constexpr int kSmallestPx = 64;
+  if (camera.width_px % kReduction != 0 || camera.height_px % kReduction != 0 ||
+      std::min(camera.width_px, camera.height_px) < kSmallestPx || camera.focal_x_px != camera.focal_y_px) {
+    throw std::invalid_argument("depth from motion needs an image of even size, at least 64 px, and square pixels");
+  }
+}
+
+cv::Mat PlaneSweep::smooth(const cv::Mat& grey) {
+  cv::Mat smoothed;
+  cv::boxFilter(grey, smoothed, CV_8U, {kReduction, kReduction}, {0, 0});
+  return smoothed;
+}
+
+double PlaneSweep::spacing_per_m(const Eigen::Vector3d& p_CK) const {
+  double most_px = 1e-9;
+  for (const int u : {0, width_ - 1}) {
+    for (const int v : {0, height_ - 1}) {
+      most_px = std::max(most_px, displacement(ray_C(u, v), p_CK, 0.0, focal_).norm());
+    }
+  }
+  constexpr double kMaxApproach = 0.5;  // of a camera that flies backward, relative to the depth
+  const double nearest_per_m = p_CK.z() > 0.0 ? kMaxApproach / p_CK.z() : HUGE_VAL;
+  return std::min(kMaxStepPx / most_px, nearest_per_m / kPlanes);
+}
+
+/// Computes the reduced image that K would have taken with the orientation of C.
+/// @param valid  CV_8UC1, 0 at pixels that K did not show; they repeat its border.
+void PlaneSweep::derotate(const cv::Mat& key, const Eigen::Matrix3d& R_CK, cv::Mat& derotated, cv::Mat& valid) const {
+  derotated.create(height_, width_, CV_8UC1);
+  valid.create(height_, width_, CV_8UC1);
+  const Eigen::Matrix3d R_KC = R_CK.transpose();
+  const double last_u = key.cols - 1.001, last_v = key.rows - 1.001;
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) {
+      const Eigen::Vector3d ray_K = R_KC * ray_C(u, v);
+      const double scale = focal_ / std::max(ray_K.z(), 1e-3);
+      const double key_u = kReduction * (center_u_ + scale * ray_K.x());
+      const double key_v = kReduction * (center_v_ + scale * ray_K.y());
+      const double at_u = std::clamp(key_u, 0.0, last_u), at_v = std::clamp(key_v, 0.0, last_v);
+      const int left = static_cast<int>(at_u), top = static_cast<int>(at_v);
+      const double du = at_u - left, dv = at_v - top;
+      const uint8_t* const upper = key.ptr<uint8_t>(top) + left;
+      const uint8_t* const lower = key.ptr<uint8_t>(top + 1) + left;
+      const double grey =
+          (1.0 - dv) * ((1.0 - du) * upper[0] + du * upper[1]) + dv * ((1.0 - du) * lower[0] + du * lower[1]);
+      derotated.at<uint8_t>(v, u) = static_cast<uint8_t>(grey + 0.5);
+      valid.at<uint8_t>(v, u) = at_u == key_u && at_v == key_v ? 255 : 0;
+    }
+  }
+}
+
+/// Computes the sums of products of gradients over each window, less the part of the noise.
+void PlaneSweep::sum_gradients(const cv::Mat& detail) {
+  cv::Mat products(height_, width_, CV_32FC3, cv::Scalar::all(0));
+  const auto noise = static_cast<float>(0.5 * noise_.grey * noise_.grey);
+  for (int v = 1; v + 1 < height_; ++v) {
+    const uint8_t *const above = detail.ptr<uint8_t>(v - 1), *const here = detail.ptr<uint8_t>(v),
+                         *const below = detail.ptr<uint8_t>(v + 1);
+    auto* const row = products.ptr<cv::Vec3f>(v);
+    for (int u = 1; u + 1 < width_; ++u) {
+      const float gx = 0.5F * static_cast<float>(here[u + 1] - here[u - 1]);
+      const float gy = 0.5F * static_cast<float>(below[u] - above[u]);
+      row[u] = {gx * gx - noise, gx * gy, gy * gy - noise};
+    }
+  }
+  constexpr int kWindowPx = 2 * kSides + 1;
+  cv::boxFilter(products, gradients_, CV_32F, {kWindowPx, kWindowPx}, {-1, -1}, /*normalize=*/false);
+}
+
+/// Computes the costs of a plane.
+void PlaneSweep::compare(const cv::Mat& current, const cv::Mat& key, const Eigen::Vector3d& p_CK, int plane) {
+  const double per_m = inverse_depth(plane), scale = 1.0 / (1.0 - per_m * p_CK.z());
+  const Axis u_axis = sample_axis(width_, center_u_, scale, focal_ * per_m * p_CK.x());
+  const Axis v_axis = sample_axis(height_, center_v_, scale, focal_ * per_m * p_CK.y());
+  cv::Mat differences(height_, width_, CV_8UC1, cv::Scalar::all(kOutside));
+  std::vector<int16_t> blended(static_cast<size_t>(width_));
+  std::vector<uint8_t> warped(static_cast<size_t>(width_));
+  for (int v = 0; v < height_; ++v) {
+    const auto row = static_cast<size_t>(v);
+    if (v_axis.first[row] < 0) continue;
+    blend(key.ptr<uint8_t>(v_axis.first[row]), key.ptr<uint8_t>(v_axis.first[row] + 1), v_axis.weight[row], width_,
+          blended.data());
+    for (size_t u = 0; u < warped.size(); ++u) {
+      const int first = u_axis.first[u];
+      const int16_t* const from = blended.data() + std::max(first, 0);
+      const int grey = (from[0] * (kUnit - u_axis.weight[u]) + from[1] * u_axis.weight[u] + kUnit * kUnit / 2) >> 10;
+      warped[u] = first < 0 ? kOutside : static_cast<uint8_t>(grey);
+    }
+    absolute_difference(current.ptr<uint8_t>(v), warped.data(), width_, differences.ptr<uint8_t>(v));
+  }
+  int16_t* const costs = costs_.data() + static_cast<size_t>(plane) * pixels();
+  std::vector<int16_t> sums(static_cast<size_t>(width_), 0);
+  const std::vector<uint8_t> none(static_cast<size_t>(width_), 0);
+  for (int v = 0; v < height_ + kSides; ++v) {
+    const int leaving = v - 2 * kSides - 1, middle = v - kSides;
+    replace_row(leaving < 0 ? none.data() : differences.ptr<uint8_t>(leaving),
+                v < height_ ? differences.ptr<uint8_t>(v) : none.data(), width_, sums.data());
+    if (middle < kSides || middle >= height_ - kSides) continue;
+    sum_columns<kSides>(sums.data() + kSides, width_ - 2 * kSides, costs + middle * width_ + kSides);
+  }
+}
+
+void PlaneSweep::find_best() {
+  best_.assign(pixels(), kNoCost);
+  best_plane_.assign(pixels(), 0);
+  for (int plane = 0; plane < kPlanes + kBeyond; ++plane) {
+    keep_smaller(costs_.data() + static_cast<size_t>(plane) * pixels(), static_cast<int16_t>(plane), pixels(),
+                 best_.data(), best_plane_.data());
+  }
+}
+
+/// Finds the minimum cost of depths that displace the match by more than kOtherPx.
+void PlaneSweep::find_second(const Eigen::Vector3d& p_CK) {
+  first_near_.resize(pixels());
+  last_near_.resize(pixels());
+  reach_.resize(pixels());
+  second_.assign(pixels(), kNoCost);
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) {
+      const size_t pixel = static_cast<size_t>(v * width_ + u);
+      const double step_px =
+          step_per_m_ * displacement(ray_C(u, v), p_CK, inverse_depth(best_plane_[pixel]), focal_).norm();
+      const auto planes = [&](double px) { return static_cast<int16_t>(std::ceil(std::min(px / step_px, 999.0))); };
+      first_near_[pixel] = static_cast<int16_t>(best_plane_[pixel] - planes(kOtherPx));
+      last_near_[pixel] = static_cast<int16_t>(best_plane_[pixel] + planes(kOtherPx));
+      reach_[pixel] = planes(kInterpolatedPx);
+    }
+  }
+  for (int plane = 0; plane < kPlanes + kBeyond; ++plane) {
+    keep_smaller_outside(costs_.data() + static_cast<size_t>(plane) * pixels(), static_cast<int16_t>(plane), pixels(),
+                         first_near_.data(), last_near_.data(), second_.data());
+  }
+}
+
+/// Sets `matched_` where the match is unique and no different match of less cost has the same place in the key image.
+void PlaneSweep::find_covered(const Eigen::Vector3d& p_CK, const cv::Mat& valid) {
+  key_cost_.assign(pixels(), kNoCost);
+  key_plane_.assign(pixels(), 0);
+  matched_.assign(pixels(), 0);
+  std::vector<int> places(pixels(), -1);
+  for (int v = kSides; v < height_ - kSides; ++v) {
+    for (int u = kSides; u < width_ - kSides; ++u) {
+      const size_t pixel = static_cast<size_t>(v * width_ + u);
+      const double per_m = inverse_depth(best_plane_[pixel]), scale = 1.0 / (1.0 - per_m * p_CK.z());
+      const int key_u = static_cast<int>(std::lround(center_u_ + scale * (u - center_u_ - focal_ * per_m * p_CK.x())));
+      const int key_v = static_cast<int>(std::lround(center_v_ + scale * (v - center_v_ - focal_ * per_m * p_CK.y())));
+      if (key_u < kSides || key_v < kSides || key_u >= width_ - kSides || key_v >= height_ - kSides) continue;
+      if (!valid.at<uint8_t>(key_v, key_u)) continue;
+      const int place = key_v * width_ + key_u;
+      places[pixel] = place;
+      if (best_[pixel] >= key_cost_[static_cast<size_t>(place)]) continue;
+      key_cost_[static_cast<size_t>(place)] = best_[pixel];
+      key_plane_[static_cast<size_t>(place)] = best_plane_[pixel];
+    }
+  }
+  for (size_t pixel = 0; pixel < pixels(); ++pixel) {
+    if (places[pixel] < 0) continue;
+    const int16_t other = key_plane_[static_cast<size_t>(places[pixel])];
+    const bool covered = other < first_near_[pixel] || other > last_near_[pixel];
+    const bool unique = best_[pixel] * (100 + kUniquePercent) <= second_[pixel] * 100;
+    matched_[pixel] = !covered && unique;
+  }
+}
+
+/// Returns the vertex of the parabola through three costs, in planes; NaN without a minimum.
+/// @param reach  planes to the outer two, fewer next to the first and the last plane.
+double PlaneSweep::interpolate(size_t pixel, int reach) const {
+  const int middle = best_plane_[pixel];
+  const int before = std::max(middle - reach, 0), after = std::min(middle + reach, kPlanes + kBeyond - 1);
+  const auto cost = [&](int plane) -> double { return costs_[static_cast<size_t>(plane) * pixels() + pixel]; };
+  const double left = (cost(before) - cost(middle)) / (middle - before);
+  const double right = (cost(after) - cost(middle)) / (after - middle);
+  if (before == middle || after == middle || !(left + right > 0.0)) return std::nan("");
+  return middle + 0.5 * (left * (after - middle) - right * (middle - before)) / (left + right);
+}
+
+InverseDepth PlaneSweep::none() const {
+  const cv::Mat none(height_, width_, CV_32FC1, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+  return {none, none.clone()};
+}
+
+InverseDepth PlaneSweep::match(const cv::Mat& current, const cv::Mat& key, const CameraMotion& motion) {
+  InverseDepth depth = none();
+  if (motion.p_CK.norm() < 1e-6) return depth;
+  step_per_m_ = spacing_per_m(motion.p_CK);
+  cv::Mat here, there, valid;
+  derotate(current, Eigen::Matrix3d::Identity(), here, valid);
+  derotate(key, motion.R_CK, there, valid);
+  cv::erode(valid, valid, cv::Mat::ones(2 * kSides + 1, 2 * kSides + 1, CV_8U));
+  here = detail_of(here);
+  there = detail_of(there);
+  sum_gradients(here);
+  costs_.assign(pixels() * (kPlanes + kBeyond), kNoCost);
+  for (int plane = 0; plane < kPlanes + kBeyond; ++plane) compare(here, there, motion.p_CK, plane);
+  find_best();
+  find_second(motion.p_CK);
+  find_covered(motion.p_CK, valid);
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) {
+      const size_t pixel = static_cast<size_t>(v * width_ + u);
+      if (!matched_[pixel]) continue;
+      const double plane = interpolate(pixel, reach_[pixel]);
+      if (!std::isfinite(plane)) continue;
+      const double per_m = std::max((plane - kBeyond) * step_per_m_, 0.0);
+      const Eigen::Vector2d along_px = displacement(ray_C(u, v), motion.p_CK, per_m, focal_);
+      const cv::Vec3f& sums = gradients_.at<cv::Vec3f>(v, u);
+      const Eigen::Vector3d gradients(sums[0], sums[1], sums[2]);
+      if (noise_px2(gradients, along_px, noise_) > kMaxMatchPx * kMaxMatchPx) continue;
+      depth.per_m.at<float>(v, u) = static_cast<float>(per_m);
+      depth.sigma_per_m.at<float>(v, u) =
+          static_cast<float>(sigma_of_inverse_depth(ray_C(u, v), motion, per_m, focal_, gradients, noise_));
+    }
+  }
+  return depth;
+}
+
+}  // namespace hedgehop::vision::motion
