@@ -16,6 +16,7 @@
 #include "avoidance/local_map/stop_planner.h"
 #include "avoidance/local_map/surroundings.h"
 #include "avoidance/local_map/unknown_target.h"
+#include "avoidance/local_map/weave.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/quantities.h"
 
@@ -67,6 +68,7 @@ class LocalMap final : public Module {
     unknown_target_ = {};
     progress_.reset();
     waits_.reset();
+    weave_ = {};
     stops_ = stuck_ = decisions_ = 0;
   }
 
@@ -85,21 +87,17 @@ class LocalMap final : public Module {
       last_nose_rad_ = heading_rad(reckoned.navigation.q_WB_est);
     }
     around_->see(reckoned.navigation, t_s);
-    const Decision decision = decide(reckoned, observation.goal.p_WG, t_s);
-    last_ = decision;
+    last_ = decide(reckoned, observation.goal.p_WG, t_s);
     ++decisions_;
-    return decision;
+    return *last_;
   }
 
   const LevelSlice& slice() const { return around_->slice(); }
-  ClearanceDeficit deficit(const PathState& state, bool unknown_too) const {
-    return hull_clearance_.deficit(slice(), state, unknown_too);
-  }
 
   /// Plans a path to the minimum of a function, clear of obstacles and, unless disabled, of unknown space.
   StopPlanner::Plan plan_to(const PathState& now, const StopPlanner::ToGoal& least_m, bool unknown_too = true) const {
     return planner_.choose(
-        now, last_cmd_W_, [&](const PathState& m) { return deficit(m, unknown_too); },
+        now, last_cmd_W_, [&](const PathState& m) { return hull_clearance_.deficit(slice(), m, unknown_too); },
         [&](const std::vector<PathState>& path) {
           return threat_m(path, around_->moving_obstacles(), clearance_, now.t_s);
         },
@@ -129,13 +127,13 @@ class LocalMap final : public Module {
     const bool held = !arrived && route_m && plan_.progress_m < kHeldBack * hoped.progress_m;
     unknown_target_.update(held, hoped.path, slice(), hull_clearance_, clearance_.hull_m, now, heading);
     look(now, heading, route_m);
+    if (config_.depth == stereo::DisparitySource::From::motion && !arrived) weave(now, heading);
     const bool goes_on = route_m && !(waits(now) && !unknown_target_.place_W() && !arrived);
     const double nose = nose_in_view(now, nose_rad(observation, arrived, goes_on),
                                      nearest_approaching(now, around_->moving_obstacles(), clearance_.hull_m),
                                      around_->half_view_rad(), unknown_target_.place_W().has_value());
     last_nose_rad_ = hull_clearance_.free_turn_rad(slice(), plan_.path, heading, nose);
     if (last_nose_rad_ != nose && plan_.v_cmd_W.norm() < kHoversMps) make_room(now, heading, nose);
-
     change_level(observation.goal.p_WG, p_W, t_s);
     Decision decision;
     VelocityCommand command;
@@ -216,6 +214,13 @@ class LocalMap final : public Module {
     progress_.reset();
   }
 
+  /// Replaces a hover by a slow flight to the left and right.
+  void weave(const PathState& now, double heading) {
+    if (!plan_.safe || plan_.v_cmd_W.norm() > kHoversMps) return;
+    const Eigen::Vector2d end_W = weave_.target_W(now, heading);
+    plan_ = plan_to(now, [&](const Eigen::Vector2d& at_W) { return (at_W - end_W).norm(); });
+  }
+
   /// Moves to a position at which the turn is free.
   void make_room(const PathState& now, double from_rad, double to_rad) {
     HullClearance turned = hull_clearance_;
@@ -240,17 +245,11 @@ class LocalMap final : public Module {
   }
 
   double nose_rad(const Observation& observation, bool arrived, bool goes_on) const {
-    const NavigationState& navigation = observation.navigation;
-    const double heading = heading_rad(navigation.q_WB_est);
-    const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>();
-    const auto towards = [&](const Eigen::Vector2d& there_W) {
-      const Eigen::Vector2d off_W = there_W - p_W;
-      return off_W.norm() > 0.1 ? std::atan2(off_W.y(), off_W.x()) : heading;
-    };
+    const double heading = heading_rad(observation.navigation.q_WB_est);
+    const Eigen::Vector2d p_W = observation.navigation.p_WB_est.head<2>();
     if (arrived) return observation.goal.heading_rad;
     if (!goes_on) return heading + 0.5;  // turns: the obstacle may have been an error, or may have left
-    if (unknown_target_.place_W()) return towards(*unknown_target_.place_W());
-    return towards(route_.route_W(p_W, kAheadM).back());
+    return azimuth_rad(p_W, unknown_target_.place_W().value_or(route_.route_W(p_W, kAheadM).back()), heading);
   }
 
   std::vector<Metric> do_metrics() const override {
@@ -291,6 +290,7 @@ class LocalMap final : public Module {
   UnknownTarget unknown_target_;
   ProgressTimer progress_;
   ConditionTimer waits_;
+  Weave weave_;  ///< for depth from motion
   std::optional<Decision> last_;
   int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
 };

@@ -8,6 +8,13 @@
 
 namespace hedgehop::avoidance::local_map {
 
+/// Returns the azimuth of a position from north to east, rad; `otherwise_rad` if it is nearer than 0.1 m.
+inline double azimuth_rad(const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W, double otherwise_rad) {
+  constexpr double kHereM = 0.1;
+  const Eigen::Vector2d off_W = to_W - from_W;
+  return off_W.norm() > kHereM ? std::atan2(off_W.y(), off_W.x()) : otherwise_rad;
+}
+
 /// Returns the heading, limited so that an approaching obstacle stays in view. At high speed it is also limited
 /// relative to the course, so that obstacles that enter the course from the other side are visible.
 /// @param obstacle  nearest_approaching(); may be null. @param inspects  whether the nose points at unknown space,

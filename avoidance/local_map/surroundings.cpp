@@ -50,9 +50,12 @@ MovingObstacleTracker::Config tracking(const LocalMapConfig& config, const visio
 /// Returns half the side of the window of the matcher, px.
 int half_window_px(const LocalMapConfig& config) {
   switch (config.depth) {
-    case DisparitySource::From::stereo: return config.stereo.block_px / 2;
-    case DisparitySource::From::motion: return vision::motion::PlaneSweep::kHalfWindowPx;
-    case DisparitySource::From::camera: break;
+    case DisparitySource::From::stereo:
+      return config.stereo.block_px / 2;
+    case DisparitySource::From::motion:
+      return vision::motion::PlaneSweep::kHalfWindowPx;
+    case DisparitySource::From::camera:
+      break;
   }
   return 0;
 }

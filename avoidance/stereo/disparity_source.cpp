@@ -78,9 +78,7 @@ DisparitySource::DisparitySource(From from, Grey grey, const vision::stereo::Ste
       depth_(role_of(pair, kDepth)),
       front_(role_of(pair, kFront)),
       matcher_(config) {
-  const MountedCamera& camera = camera_of(setup, from == From::stereo   ? left_
-                                                 : from == From::motion ? front_
-                                                                        : depth_);
+  const MountedCamera& camera = camera_of(setup, from == From::stereo ? left_ : from == From::motion ? front_ : depth_);
   if (from == From::stereo) {
     geometry_ = geometry_of_pair(camera, camera_of(setup, right_));
   } else {

@@ -8,13 +8,13 @@
 namespace hedgehop::avoidance::stereo {
 namespace {
 
-constexpr double kShortestM = 0.1;         // minimum baseline; the motion is less accurate than a tenth of it
-constexpr double kShareOfNearest = 0.3;    // of the depth of the nearest surface; the plane sweep reaches 1.6 baselines
-constexpr double kNearestShare = 0.02;     // share of the pixels that may be nearer
-constexpr double kOldestS = 2.0;           // age of a key image: the error of the motion grows with time
-constexpr double kVelocitySigmaMps = 0.02; // of an estimate from a downward camera, steady over a baseline
-constexpr double kTurnSigmaRadps = 1e-3;   // of the gyros less their estimated bias
-constexpr double kMaxGrowth = 1.1;         // of the wanted baseline from image to image
+constexpr double kShortestM = 0.1;       // minimum baseline; the motion is less accurate than a tenth of it
+constexpr double kShareOfNearest = 0.3;  // of the depth of the nearest surface; the plane sweep reaches 1.6 baselines
+constexpr double kNearestShare = 0.02;   // share of the pixels that may be nearer
+constexpr double kOldestS = 2.0;         // age of a key image: the error of the motion grows with time
+constexpr double kVelocitySigmaMps = 0.02;  // of an estimate from a downward camera, steady over a baseline
+constexpr double kTurnSigmaRadps = 1e-3;    // of the gyros less their estimated bias
+constexpr double kMaxGrowth = 1.1;          // of the wanted baseline from image to image
 
 }  // namespace
 

@@ -20,7 +20,8 @@ struct DepthBlock {
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 if no pixels are matched
-  int16_t sigma16 = -1;  ///< mean 1-sigma error of the disparity x 16; -1 if all pixels have the same, which is not given
+  int16_t sigma16 =
+      -1;  ///< mean 1-sigma error of the disparity x 16; -1 if all pixels have the same, which is not given
   int16_t foot16 = -1;  ///< of sky and line: disparity x 16 of a vertical surface at the end of the column's ground
   uint8_t grey = 0;     ///< mean
   uint8_t range = 0;    ///< range of the mean grey of its four quarters
@@ -39,7 +40,8 @@ class DepthBlocks {
   /// @param grey  CV_8UC1 of equal size, or empty; without it no sky is found.
   /// @param smear_px  half the side of the matcher's window, >= 0. If one half of the window is untextured, the other
   /// half determines the match. Within this distance of an untextured area, free space is therefore uncertain.
-  /// @param sigma16  CV_16SC1, 1-sigma error of the disparity x 16 at matched pixels, or empty if it is the same at all.
+  /// @param sigma16  CV_16SC1, 1-sigma error of the disparity x 16 at matched pixels, or empty if it is the same at
+  /// all.
   void build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px, const cv::Mat& sigma16 = {});
 
   int rows() const { return rows_; }

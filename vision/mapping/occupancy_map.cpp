@@ -165,8 +165,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
   hit_slots_.clear();
   // z^2 sigma_px / (f b) = sigma_m
   const auto min_disparity16 = [&](const DepthBlock& block, double sigma_m) {
-    return geometry.disparity16(
-        std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / noise_px(block)));
+    return geometry.disparity16(std::sqrt(sigma_m * geometry.focal_px * geometry.baseline_m / noise_px(block)));
   };
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {

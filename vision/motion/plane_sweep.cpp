@@ -8,25 +8,23 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "vision/flow/wide_integers.h"
+#include "vision/motion/cost_rows.h"
 
 namespace hedgehop::vision::motion {
 namespace {
 
 constexpr int kDetail = 63;              // limit of the difference from the local mean, grey levels
 constexpr int kLocalPx = 15;             // side of the area of this mean
-constexpr double kMaxStepPx = 2.0;      // displacement from plane to plane in the image corner
+constexpr double kMaxStepPx = 2.0;       // displacement from plane to plane in the image corner
 constexpr double kOtherPx = 1.5;         // displacement from which another depth is a different match
 constexpr double kInterpolatedPx = 0.8;  // displacement to the costs on both sides of the minimum
 constexpr int kUniquePercent = 10;       // required margin of the minimum over different matches
 constexpr double kMaxMatchPx = 0.3;      // maximum error of a match by noise; beyond it the bound is too small
-constexpr int16_t kNoCost = std::numeric_limits<int16_t>::max();
 
 /// Pixels and weights of linear interpolation along one axis; -1 outside the image. Weights in 32nds.
 struct Axis {
   std::vector<int> first, weight;
 };
-constexpr int kUnit = 32;
 
 Axis sample_axis(int size, double center, double scale, double shift) {
   Axis axis;
@@ -41,54 +39,6 @@ Axis sample_axis(int size, double center, double scale, double shift) {
   return axis;
 }
 
-HEDGEHOP_WIDE void blend(const uint8_t* upper, const uint8_t* lower, int weight, int count, int16_t* blended) {
-  for (int i = 0; i < count; ++i) blended[i] = static_cast<int16_t>(upper[i] * (kUnit - weight) + lower[i] * weight);
-}
-
-/// Replaces the row that leaves the window by the one that enters, in sums over the columns of the window.
-HEDGEHOP_WIDE void replace_row(const uint8_t* leaving, const uint8_t* entering, int count, int16_t* sums) {
-  for (int i = 0; i < count; ++i) sums[i] = static_cast<int16_t>(sums[i] + entering[i] - leaving[i]);
-}
-
-HEDGEHOP_WIDE void absolute_difference(const uint8_t* a, const uint8_t* b, int count, uint8_t* difference) {
-  for (int i = 0; i < count; ++i) difference[i] = a[i] > b[i] ? a[i] - b[i] : b[i] - a[i];
-}
-
-template <int kSides>
-HEDGEHOP_WIDE void sum_columns(const int16_t* sums, int count, int16_t* costs) {
-  for (int i = 0; i < count; ++i) {
-    int16_t sum = 0;
-    for (int side = -kSides; side <= kSides; ++side) sum = static_cast<int16_t>(sum + sums[i + side]);
-    costs[i] = sum;
-  }
-}
-
-HEDGEHOP_WIDE void keep_smaller(const int16_t* costs, int16_t plane, size_t count, int16_t* best, int16_t* best_plane) {
-  for (size_t i = 0; i < count; ++i) {
-    best_plane[i] = costs[i] < best[i] ? plane : best_plane[i];
-    best[i] = costs[i] < best[i] ? costs[i] : best[i];
-  }
-}
-
-HEDGEHOP_WIDE void keep_smaller_outside(const int16_t* costs, int16_t plane, size_t count, const int16_t* first,
-                                        const int16_t* last, int16_t* second) {
-  for (size_t i = 0; i < count; ++i) {
-    const int16_t cost = (plane < first[i]) | (plane > last[i]) ? costs[i] : kNoCost;
-    second[i] = cost < second[i] ? cost : second[i];
-  }
-}
-
-constexpr double kNoLength = 1e-12;
-
-/// Returns the variance of a match caused by noise: the Cramer-Rao bound for two noisy images.
-/// @param along_px  direction in which the match moves.
-double noise_px2(const Eigen::Vector3d& gradients, const Eigen::Vector2d& along_px, const MatchNoise& noise) {
-  const Eigen::Vector2d e = along_px / std::max(along_px.norm(), kNoLength);
-  const double texture =
-      e.x() * e.x() * gradients[0] + 2.0 * e.x() * e.y() * gradients[1] + e.y() * e.y() * gradients[2];
-  return 2.0 * noise.grey * noise.grey / std::max(texture, kNoLength);
-}
-
 cv::Mat detail_of(const cv::Mat& image) {
   cv::Mat mean, detail;
   cv::boxFilter(image, mean, CV_8U, {kLocalPx, kLocalPx});
@@ -99,28 +49,6 @@ cv::Mat detail_of(const cv::Mat& image) {
 }
 
 }  // namespace
-
-Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CK, double per_m, double focal_px) {
-  const double depth_ratio = 1.0 - per_m * p_CK.z();  // z in K divided by z in C
-  return focal_px / (depth_ratio * depth_ratio) * (ray_C.head<2>() * p_CK.z() - p_CK.head<2>());
-}
-
-double sigma_of_inverse_depth(const Eigen::Vector3d& ray_C, const CameraMotion& motion, double per_m, double focal_px,
-                              const Eigen::Vector3d& gradients, const MatchNoise& noise) {
-  const Eigen::Vector2d along_px = displacement(ray_C, motion.p_CK, per_m, focal_px);
-  const double length = along_px.norm();
-  const Eigen::Vector2d e = along_px / std::max(length, kNoLength);
-  const double inclined_px = noise.share * per_m * length;
-  const double match_px2 =
-      noise_px2(gradients, along_px, noise) + noise.floor_px * noise.floor_px + inclined_px * inclined_px;
-  // Derivatives of the place in the key image along e with respect to p_CK and to a rotation.
-  const double depth_ratio = 1.0 - per_m * motion.p_CK.z();
-  const double radial = e.dot(ray_C.head<2>() - per_m * motion.p_CK.head<2>()) / depth_ratio;
-  const double sensitivity = std::sqrt(1.0 + radial * radial);
-  const double p_px = focal_px * per_m / depth_ratio * sensitivity * motion.sigma_p_m;
-  const double turn_px = focal_px * sensitivity * motion.sigma_rad;
-  return std::sqrt(match_px2 + p_px * p_px + turn_px * turn_px) / length;
-}
 
 PlaneSweep::PlaneSweep(const camera::PinholeCamera& camera, const MatchNoise& noise)
     : width_(camera.width_px / kReduction),
@@ -227,7 +155,7 @@ void PlaneSweep::compare(const cv::Mat& current, const cv::Mat& key, const Eigen
     replace_row(leaving < 0 ? none.data() : differences.ptr<uint8_t>(leaving),
                 v < height_ ? differences.ptr<uint8_t>(v) : none.data(), width_, sums.data());
     if (middle < kSides || middle >= height_ - kSides) continue;
-    sum_columns<kSides>(sums.data() + kSides, width_ - 2 * kSides, costs + middle * width_ + kSides);
+    sum_columns(sums.data() + kSides, kSides, width_ - 2 * kSides, costs + middle * width_ + kSides);
   }
 }
 

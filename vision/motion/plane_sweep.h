@@ -6,23 +6,9 @@
 #include <vector>
 
 #include "vision/camera/pinhole_camera.h"
+#include "vision/motion/match_error.h"
 
 namespace hedgehop::vision::motion {
-
-/// Motion of a camera between two images, with its error. K is the camera at the earlier image, the key image.
-struct CameraMotion {
-  Eigen::Matrix3d R_CK = Eigen::Matrix3d::Identity();  ///< rotation of K in C
-  Eigen::Vector3d p_CK = Eigen::Vector3d::Zero();      ///< position of K in C, m
-  double sigma_p_m = 0.0;                              ///< 1-sigma of p_CK, per axis, >= 0
-  double sigma_rad = 0.0;                              ///< 1-sigma of R_CK, per axis, >= 0
-};
-
-/// Noise of the images and accuracy of a match.
-struct MatchNoise {
-  double grey = 1.4;      ///< 1-sigma of a pixel of the reduced image, grey levels, > 0
-  double floor_px = 0.15;  ///< 1-sigma of a match on perfect texture, pixels of the reduced image, > 0
-  double share = 0.02;   ///< additional 1-sigma, as a share of the displacement: windows on inclined surfaces, >= 0
-};
 
 /// Inverse depth with its uncertainty, at half the resolution of the camera.
 struct InverseDepth {
@@ -30,27 +16,14 @@ struct InverseDepth {
   cv::Mat sigma_per_m;  ///< CV_32FC1, 1-sigma of it, 1/m; NaN if unmatched
 };
 
-/// Returns the displacement of a match in the key image per change of inverse depth.
-/// @param ray_C  of the pixel, scaled to z = 1. @param per_m  inverse depth, 1/m. @param focal_px  focal length.
-/// @return px m. Zero at the focus of expansion, where depth is not observable.
-Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CK, double per_m, double focal_px);
-
-/// Returns the 1-sigma error of an inverse depth, 1/m: errors of the match along the epipolar line and of the motion,
-/// divided by the displacement per inverse depth. Both errors are independent. A match that minimizes the squared
-/// difference of noisy images errs by sqrt(2 noise^2 / sum of squared gradients), the Cramer-Rao bound.
-/// @param gradients  sums of gx gx, gx gy, gy gy over the window, grey levels^2 / px^2.
-/// Infinite at the focus of expansion and without texture.
-double sigma_of_inverse_depth(const Eigen::Vector3d& ray_C, const CameraMotion& motion, double per_m, double focal_px,
-                              const Eigen::Vector3d& gradients, const MatchNoise& noise);
-
 /// Computes depth from two images of one moving pinhole camera by a plane sweep: the derotated key image is compared
 /// with the current one for planes z = constant in C, equally spaced in inverse depth: [Collins1996] sec. 3. Such a
 /// plane only scales and shifts the image, so windows keep their size next to the focus of expansion, where an
 /// epipolar rectification would not.
 /// - Images have half of the camera's resolution, less a local mean, because vignetting changes the brightness of a
 ///   point that moves through the image.
-/// - A match is rejected if another depth costs about the same, or if a cheaper match covers its place in the key image.
-/// Differs: absolute instead of squared differences, and uncertainty from texture and motion.
+/// - A match is rejected if another depth costs about the same, or if a cheaper match covers its place in the key
+/// image. Differs: absolute instead of squared differences, and uncertainty from texture and motion.
 class PlaneSweep {
  public:
   static constexpr int kReduction = 2;     ///< of the resolution
@@ -72,12 +45,11 @@ class PlaneSweep {
   double reach_per_m(const Eigen::Vector3d& p_CK) const { return kPlanes * spacing_per_m(p_CK); }
 
  private:
-  static constexpr int kPlanes = 64;    ///< in front of the camera
-  static constexpr int kBeyond = 4;     ///< behind infinity, to interpolate there
+  static constexpr int kPlanes = 64;  ///< in front of the camera
+  static constexpr int kBeyond = 4;   ///< behind infinity, to interpolate there
   static constexpr int kSides = kHalfWindowPx / kReduction;
   static constexpr uint8_t kOutside = 255;
 
-  struct Sampling;
   size_t pixels() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
   Eigen::Vector3d ray_C(int u, int v) const { return {(u - center_u_) / focal_, (v - center_v_) / focal_, 1.0}; }
   double inverse_depth(int plane) const { return (plane - kBeyond) * step_per_m_; }

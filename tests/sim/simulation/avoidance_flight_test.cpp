@@ -108,6 +108,25 @@ avoidance: {module: corridor_centering}
                  /*clearance_m=*/0.25, "pillar", "1");
 }
 
+// One camera: depth comes from its motion.
+TEST(AvoidanceFlight, LocalMapByMotionPassesATree) {
+  expect_avoided("local_map", R"(
+duration: 40
+scene: {type: tree}
+vehicle: {use: ~/vehicles/s900.yaml}
+avionics: {autopilot: {speed_limit: 5, acceleration_limit: 3}}
+wind: {turbulence_w20: 3}
+rig:
+  cameras:
+    - {role: front, width: 320, height: 180, focal_x: 175, rate: 10, channel: grey, forward: 0.3, down: 0.15, imperfections: {full_well: 8000, read_noise: 1}}
+    - {role: down, width: 60, height: 60, fov: 50, rate: 50, channel: grey, down: 0.2, pitch: -90}
+start: {north: -15, east: 0, altitude: 6}
+goal: {north: 12, east: 0, altitude: 6, radius: 4}
+avoidance: {module: local_map, depth: motion}
+)",
+                 /*clearance_m=*/0.8, "tree", "5");
+}
+
 TEST(AvoidanceFlight, LandmarkMapPassesABuilding) {
   expect_avoided("landmark_map", R"(
 duration: 60
