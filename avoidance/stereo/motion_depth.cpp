@@ -22,15 +22,15 @@ MotionDepth::MotionDepth(const MountedCamera& camera)
     : X_BC_(camera.X_BC), sweep_(camera.model.pinhole(), {}), wanted_m_(kShortestM) {}
 
 void MotionDepth::move(const NavigationState& navigation, double t_s) {
-  const Eigen::Vector3d v_WB_G = navigation.q_WB_gyro * navigation.v_WB_B_est;
-  if (moved_s_) p_GB_ += 0.5 * (t_s - *moved_s_) * (v_WB_G_ + v_WB_G);
-  v_WB_G_ = v_WB_G;
+  const Eigen::Vector3d v_WB_Wg = navigation.q_WB_gyro * navigation.v_WB_B_est;
+  if (moved_s_) p_WgB_ += 0.5 * (t_s - *moved_s_) * (v_WB_Wg_ + v_WB_Wg);
+  v_WB_Wg_ = v_WB_Wg;
   moved_s_ = t_s;
 }
 
 /// Returns the image whose distance is nearest to the wanted baseline; null if all are too near.
-const MotionDepth::KeyImage* MotionDepth::choose_key(const Eigen::Isometry3d& X_GC) const {
-  const auto away_m = [&](const KeyImage& key) { return (key.X_GC.translation() - X_GC.translation()).norm(); };
+const MotionDepth::KeyImage* MotionDepth::choose_key(const Eigen::Isometry3d& X_WgC) const {
+  const auto away_m = [&](const KeyImage& key) { return (key.X_WgC.translation() - X_WgC.translation()).norm(); };
   const KeyImage* best = nullptr;
   for (const KeyImage& key : keys_) {
     if (away_m(key) < kShortestM) continue;
@@ -56,22 +56,22 @@ void MotionDepth::adapt_baseline(const cv::Mat& per_m) {
 vision::motion::InverseDepth MotionDepth::update(const cv::Mat& grey, const NavigationState& navigation, double t_s) {
   move(navigation, t_s);
   while (!keys_.empty() && keys_.front().t_s < t_s - kOldestS) keys_.pop_front();
-  const Eigen::Isometry3d X_GC = Eigen::Translation3d(p_GB_) * navigation.q_WB_gyro * X_BC_;
+  const Eigen::Isometry3d X_WgC = Eigen::Translation3d(p_WgB_) * navigation.q_WB_gyro * X_BC_;
   const cv::Mat smooth = vision::motion::PlaneSweep::smooth(grey);
-  const KeyImage* const key = choose_key(X_GC);
+  const KeyImage* const key = choose_key(X_WgC);
   vision::motion::InverseDepth depth;
   if (key) {
-    const Eigen::Isometry3d X_CK = X_GC.inverse() * key->X_GC;
+    const Eigen::Isometry3d X_CCk = X_WgC.inverse() * key->X_WgC;
     const double apart_s = t_s - key->t_s;
     depth = sweep_.match(smooth, key->smooth,
-                         {X_CK.linear(), X_CK.translation(), kVelocitySigmaMps * apart_s, kTurnSigmaRadps * apart_s});
+                         {X_CCk.linear(), X_CCk.translation(), kVelocitySigmaMps * apart_s, kTurnSigmaRadps * apart_s});
     adapt_baseline(depth.per_m);
-    baseline_m_ = X_CK.translation().norm();
+    baseline_m_ = X_CCk.translation().norm();
   } else {
     depth = sweep_.none();
     baseline_m_ = 0.0;
   }
-  keys_.push_back({smooth, X_GC, t_s});
+  keys_.push_back({smooth, X_WgC, t_s});
   return depth;
 }
 

@@ -32,16 +32,16 @@ class MotionDepth {
  private:
   struct KeyImage {
     cv::Mat smooth;
-    Eigen::Isometry3d X_GC;  ///< pose; G is W at the start, and drifts with the gyros
+    Eigen::Isometry3d X_WgC;  ///< pose; Wg is W at the start and drifts with the gyros
     double t_s;
   };
   void move(const NavigationState& navigation, double t_s);
-  const KeyImage* choose_key(const Eigen::Isometry3d& X_GC) const;
+  const KeyImage* choose_key(const Eigen::Isometry3d& X_WgC) const;
   void adapt_baseline(const cv::Mat& per_m);
 
   Eigen::Isometry3d X_BC_;
   vision::motion::PlaneSweep sweep_;
-  Eigen::Vector3d p_GB_ = Eigen::Vector3d::Zero(), v_WB_G_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_WgB_ = Eigen::Vector3d::Zero(), v_WB_Wg_ = Eigen::Vector3d::Zero();
   std::optional<double> moved_s_;
   std::deque<KeyImage> keys_;  ///< oldest first
   double wanted_m_ = 0.0, baseline_m_ = 0.0;

@@ -4,12 +4,12 @@
 
 namespace hedgehop::vision::motion {
 
-/// Motion of a camera between two images, with its error. K is the camera at the earlier image, the key image.
+/// Motion of a camera between two images, with its error. Ck is the camera at the earlier image, the key image.
 struct CameraMotion {
-  Eigen::Matrix3d R_CK = Eigen::Matrix3d::Identity();  ///< rotation of K in C
-  Eigen::Vector3d p_CK = Eigen::Vector3d::Zero();      ///< position of K in C, m
-  double sigma_p_m = 0.0;                              ///< 1-sigma of p_CK, per axis, >= 0
-  double sigma_rad = 0.0;                              ///< 1-sigma of R_CK, per axis, >= 0
+  Eigen::Matrix3d R_CCk = Eigen::Matrix3d::Identity();  ///< rotation of Ck in C
+  Eigen::Vector3d p_CCk = Eigen::Vector3d::Zero();      ///< position of Ck in C, m
+  double sigma_p_m = 0.0;                               ///< 1-sigma of p_CCk, per axis, >= 0
+  double sigma_rad = 0.0;                               ///< 1-sigma of R_CCk, per axis, >= 0
 };
 
 /// Noise of the images and accuracy of a match.
@@ -22,7 +22,7 @@ struct MatchNoise {
 /// Returns the displacement of a match in the key image per change of inverse depth.
 /// @param ray_C  of the pixel, scaled to z = 1. @param per_m  inverse depth, 1/m. @param focal_px  focal length.
 /// @return px m. Zero at the focus of expansion, where depth is not observable.
-Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CK, double per_m, double focal_px);
+Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CCk, double per_m, double focal_px);
 
 /// Returns the variance of a match caused by grey noise, px^2: the Cramer-Rao bound for the squared difference of two
 /// noisy images, 2 noise^2 / sum of squared gradients. Infinite without texture.

@@ -70,31 +70,31 @@ cv::Mat PlaneSweep::smooth(const cv::Mat& grey) {
   return smoothed;
 }
 
-double PlaneSweep::spacing_per_m(const Eigen::Vector3d& p_CK) const {
+double PlaneSweep::spacing_per_m(const Eigen::Vector3d& p_CCk) const {
   double most_px = 1e-9;
   for (const int u : {0, width_ - 1}) {
     for (const int v : {0, height_ - 1}) {
-      most_px = std::max(most_px, displacement(ray_C(u, v), p_CK, 0.0, focal_).norm());
+      most_px = std::max(most_px, displacement(ray_C(u, v), p_CCk, 0.0, focal_).norm());
     }
   }
   constexpr double kMaxApproach = 0.5;  // of a camera that flies backward, relative to the depth
-  const double nearest_per_m = p_CK.z() > 0.0 ? kMaxApproach / p_CK.z() : HUGE_VAL;
+  const double nearest_per_m = p_CCk.z() > 0.0 ? kMaxApproach / p_CCk.z() : HUGE_VAL;
   return std::min(kMaxStepPx / most_px, nearest_per_m / kPlanes);
 }
 
-/// Computes the reduced image that K would have taken with the orientation of C.
-/// @param valid  CV_8UC1, 0 at pixels that K did not show; they repeat its border.
-void PlaneSweep::derotate(const cv::Mat& key, const Eigen::Matrix3d& R_CK, cv::Mat& derotated, cv::Mat& valid) const {
+/// Computes the reduced image that Ck would have taken with the orientation of C.
+/// @param valid  CV_8UC1, 0 at pixels that Ck did not show; they repeat its border.
+void PlaneSweep::derotate(const cv::Mat& key, const Eigen::Matrix3d& R_CCk, cv::Mat& derotated, cv::Mat& valid) const {
   derotated.create(height_, width_, CV_8UC1);
   valid.create(height_, width_, CV_8UC1);
-  const Eigen::Matrix3d R_KC = R_CK.transpose();
+  const Eigen::Matrix3d R_CkC = R_CCk.transpose();
   const double last_u = key.cols - 1.001, last_v = key.rows - 1.001;
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
-      const Eigen::Vector3d ray_K = R_KC * ray_C(u, v);
-      const double scale = focal_ / std::max(ray_K.z(), 1e-3);
-      const double key_u = kReduction * (center_u_ + scale * ray_K.x());
-      const double key_v = kReduction * (center_v_ + scale * ray_K.y());
+      const Eigen::Vector3d ray_Ck = R_CkC * ray_C(u, v);
+      const double scale = focal_ / std::max(ray_Ck.z(), 1e-3);
+      const double key_u = kReduction * (center_u_ + scale * ray_Ck.x());
+      const double key_v = kReduction * (center_v_ + scale * ray_Ck.y());
       const double at_u = std::clamp(key_u, 0.0, last_u), at_v = std::clamp(key_v, 0.0, last_v);
       const int left = static_cast<int>(at_u), top = static_cast<int>(at_v);
       const double du = at_u - left, dv = at_v - top;
@@ -127,10 +127,10 @@ void PlaneSweep::sum_gradients(const cv::Mat& detail) {
 }
 
 /// Computes the costs of a plane.
-void PlaneSweep::compare(const cv::Mat& current, const cv::Mat& key, const Eigen::Vector3d& p_CK, int plane) {
-  const double per_m = inverse_depth(plane), scale = 1.0 / (1.0 - per_m * p_CK.z());
-  const Axis u_axis = sample_axis(width_, center_u_, scale, focal_ * per_m * p_CK.x());
-  const Axis v_axis = sample_axis(height_, center_v_, scale, focal_ * per_m * p_CK.y());
+void PlaneSweep::compare(const cv::Mat& current, const cv::Mat& key, const Eigen::Vector3d& p_CCk, int plane) {
+  const double per_m = inverse_depth(plane), scale = 1.0 / (1.0 - per_m * p_CCk.z());
+  const Axis u_axis = sample_axis(width_, center_u_, scale, focal_ * per_m * p_CCk.x());
+  const Axis v_axis = sample_axis(height_, center_v_, scale, focal_ * per_m * p_CCk.y());
   cv::Mat differences(height_, width_, CV_8UC1, cv::Scalar::all(kOutside));
   std::vector<int16_t> blended(static_cast<size_t>(width_));
   std::vector<uint8_t> warped(static_cast<size_t>(width_));
@@ -169,7 +169,7 @@ void PlaneSweep::find_best() {
 }
 
 /// Finds the minimum cost of depths that displace the match by more than kOtherPx.
-void PlaneSweep::find_second(const Eigen::Vector3d& p_CK) {
+void PlaneSweep::find_second(const Eigen::Vector3d& p_CCk) {
   first_near_.resize(pixels());
   last_near_.resize(pixels());
   reach_.resize(pixels());
@@ -178,7 +178,7 @@ void PlaneSweep::find_second(const Eigen::Vector3d& p_CK) {
     for (int u = 0; u < width_; ++u) {
       const size_t pixel = static_cast<size_t>(v * width_ + u);
       const double step_px =
-          step_per_m_ * displacement(ray_C(u, v), p_CK, inverse_depth(best_plane_[pixel]), focal_).norm();
+          step_per_m_ * displacement(ray_C(u, v), p_CCk, inverse_depth(best_plane_[pixel]), focal_).norm();
       const auto planes = [&](double px) { return static_cast<int16_t>(std::ceil(std::min(px / step_px, 999.0))); };
       first_near_[pixel] = static_cast<int16_t>(best_plane_[pixel] - planes(kOtherPx));
       last_near_[pixel] = static_cast<int16_t>(best_plane_[pixel] + planes(kOtherPx));
@@ -192,7 +192,7 @@ void PlaneSweep::find_second(const Eigen::Vector3d& p_CK) {
 }
 
 /// Sets `matched_` where the match is unique and no different match of less cost has the same place in the key image.
-void PlaneSweep::find_covered(const Eigen::Vector3d& p_CK, const cv::Mat& valid) {
+void PlaneSweep::find_covered(const Eigen::Vector3d& p_CCk, const cv::Mat& valid) {
   key_cost_.assign(pixels(), kNoCost);
   key_plane_.assign(pixels(), 0);
   matched_.assign(pixels(), 0);
@@ -200,9 +200,9 @@ void PlaneSweep::find_covered(const Eigen::Vector3d& p_CK, const cv::Mat& valid)
   for (int v = kSides; v < height_ - kSides; ++v) {
     for (int u = kSides; u < width_ - kSides; ++u) {
       const size_t pixel = static_cast<size_t>(v * width_ + u);
-      const double per_m = inverse_depth(best_plane_[pixel]), scale = 1.0 / (1.0 - per_m * p_CK.z());
-      const int key_u = static_cast<int>(std::lround(center_u_ + scale * (u - center_u_ - focal_ * per_m * p_CK.x())));
-      const int key_v = static_cast<int>(std::lround(center_v_ + scale * (v - center_v_ - focal_ * per_m * p_CK.y())));
+      const double per_m = inverse_depth(best_plane_[pixel]), scale = 1.0 / (1.0 - per_m * p_CCk.z());
+      const int key_u = static_cast<int>(std::lround(center_u_ + scale * (u - center_u_ - focal_ * per_m * p_CCk.x())));
+      const int key_v = static_cast<int>(std::lround(center_v_ + scale * (v - center_v_ - focal_ * per_m * p_CCk.y())));
       if (key_u < kSides || key_v < kSides || key_u >= width_ - kSides || key_v >= height_ - kSides) continue;
       if (!valid.at<uint8_t>(key_v, key_u)) continue;
       const int place = key_v * width_ + key_u;
@@ -240,20 +240,20 @@ InverseDepth PlaneSweep::none() const {
 
 InverseDepth PlaneSweep::match(const cv::Mat& current, const cv::Mat& key, const CameraMotion& motion) {
   InverseDepth depth = none();
-  if (motion.p_CK.norm() < 1e-6) return depth;
-  step_per_m_ = spacing_per_m(motion.p_CK);
+  if (motion.p_CCk.norm() < 1e-6) return depth;
+  step_per_m_ = spacing_per_m(motion.p_CCk);
   cv::Mat here, there, valid;
   derotate(current, Eigen::Matrix3d::Identity(), here, valid);
-  derotate(key, motion.R_CK, there, valid);
+  derotate(key, motion.R_CCk, there, valid);
   cv::erode(valid, valid, cv::Mat::ones(2 * kSides + 1, 2 * kSides + 1, CV_8U));
   here = detail_of(here);
   there = detail_of(there);
   sum_gradients(here);
   costs_.assign(pixels() * (kPlanes + kBeyond), kNoCost);
-  for (int plane = 0; plane < kPlanes + kBeyond; ++plane) compare(here, there, motion.p_CK, plane);
+  for (int plane = 0; plane < kPlanes + kBeyond; ++plane) compare(here, there, motion.p_CCk, plane);
   find_best();
-  find_second(motion.p_CK);
-  find_covered(motion.p_CK, valid);
+  find_second(motion.p_CCk);
+  find_covered(motion.p_CCk, valid);
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
       const size_t pixel = static_cast<size_t>(v * width_ + u);
@@ -261,7 +261,7 @@ InverseDepth PlaneSweep::match(const cv::Mat& current, const cv::Mat& key, const
       const double plane = interpolate(pixel, reach_[pixel]);
       if (!std::isfinite(plane)) continue;
       const double per_m = std::max((plane - kBeyond) * step_per_m_, 0.0);
-      const Eigen::Vector2d along_px = displacement(ray_C(u, v), motion.p_CK, per_m, focal_);
+      const Eigen::Vector2d along_px = displacement(ray_C(u, v), motion.p_CCk, per_m, focal_);
       const cv::Vec3f& sums = gradients_.at<cv::Vec3f>(v, u);
       const Eigen::Vector3d gradients(sums[0], sums[1], sums[2]);
       if (noise_px2(gradients, along_px, noise_) > kMaxMatchPx * kMaxMatchPx) continue;

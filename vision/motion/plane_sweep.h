@@ -17,7 +17,7 @@ struct InverseDepth {
 };
 
 /// Computes depth from two images of one moving pinhole camera by a plane sweep: the derotated key image is compared
-/// with the current one for planes z = constant in C, equally spaced in inverse depth: [Collins1996] sec. 3. Such a
+/// with the current one for planes z = constant in C, equally spaced in inverse depth: [Collins1996] p. 358. Such a
 /// plane only scales and shifts the image, so windows keep their size next to the focus of expansion, where an
 /// epipolar rectification would not.
 /// - Images have half of the camera's resolution, less a local mean, because vignetting changes the brightness of a
@@ -42,7 +42,7 @@ class PlaneSweep {
   InverseDepth match(const cv::Mat& current, const cv::Mat& key, const CameraMotion& motion);
 
   /// Returns the maximum inverse depth that match() finds, 1/m.
-  double reach_per_m(const Eigen::Vector3d& p_CK) const { return kPlanes * spacing_per_m(p_CK); }
+  double reach_per_m(const Eigen::Vector3d& p_CCk) const { return kPlanes * spacing_per_m(p_CCk); }
 
  private:
   static constexpr int kPlanes = 64;  ///< in front of the camera
@@ -53,13 +53,13 @@ class PlaneSweep {
   size_t pixels() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
   Eigen::Vector3d ray_C(int u, int v) const { return {(u - center_u_) / focal_, (v - center_v_) / focal_, 1.0}; }
   double inverse_depth(int plane) const { return (plane - kBeyond) * step_per_m_; }
-  double spacing_per_m(const Eigen::Vector3d& p_CK) const;
-  void derotate(const cv::Mat& key, const Eigen::Matrix3d& R_CK, cv::Mat& derotated, cv::Mat& valid) const;
+  double spacing_per_m(const Eigen::Vector3d& p_CCk) const;
+  void derotate(const cv::Mat& key, const Eigen::Matrix3d& R_CCk, cv::Mat& derotated, cv::Mat& valid) const;
   void sum_gradients(const cv::Mat& detail);
-  void compare(const cv::Mat& current, const cv::Mat& key, const Eigen::Vector3d& p_CK, int plane);
+  void compare(const cv::Mat& current, const cv::Mat& key, const Eigen::Vector3d& p_CCk, int plane);
   void find_best();
-  void find_second(const Eigen::Vector3d& p_CK);
-  void find_covered(const Eigen::Vector3d& p_CK, const cv::Mat& valid);
+  void find_second(const Eigen::Vector3d& p_CCk);
+  void find_covered(const Eigen::Vector3d& p_CCk, const cv::Mat& valid);
   double interpolate(size_t pixel, int reach) const;
 
   int width_, height_;  ///< of the reduced image

@@ -31,12 +31,12 @@ struct Pair {
 Pair fly(const CastWorld& world, const Eigen::Vector3d& by_W, double noise_grey, uint64_t seed) {
   std::mt19937_64 generator(seed);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d(0.5, 0.6, 0.6).normalized()));
-  const Eigen::Isometry3d X_WK = CastWorld::looking_north(Eigen::Vector3d::Zero());
+  const Eigen::Isometry3d X_WCk = CastWorld::looking_north(Eigen::Vector3d::Zero());
   const Eigen::Isometry3d X_WC = CastWorld::looking_north(by_W, turn);
-  const Eigen::Isometry3d X_CK = X_WC.inverse() * X_WK;
-  return {world.image(kCamera, X_WK, noise_grey, generator),
+  const Eigen::Isometry3d X_CCk = X_WC.inverse() * X_WCk;
+  return {world.image(kCamera, X_WCk, noise_grey, generator),
           world.image(kCamera, X_WC, noise_grey, generator),
-          {X_CK.linear(), X_CK.translation(), 0.0, 0.0}};
+          {X_CCk.linear(), X_CCk.translation(), 0.0, 0.0}};
 }
 
 InverseDepth match(const Pair& pair) {
@@ -97,7 +97,7 @@ TEST(PlaneSweep, ErrorsHaveTheStatedSigma) {
 // A sigma that ignores the motion's error would be exceeded many times.
 TEST(PlaneSweep, SigmaContainsTheErrorOfTheMotion) {
   Pair pair = fly({}, {0.8, 0.0, 0.0}, kNoiseGrey, 2);
-  pair.motion.p_CK.x() += 0.08;
+  pair.motion.p_CCk.x() += 0.08;
   const InverseDepth overconfident = match(pair);
   pair.motion.sigma_p_m = 0.08;
   EXPECT_GT(errors_of(overconfident, pair.here.per_m).outliers, 0.1);
@@ -120,11 +120,11 @@ TEST(PlaneSweep, SigmaIsInfiniteAtTheFocusOfExpansionAndFallsWithTheDistanceFrom
 }
 
 /// Returns the inverse depth at which the place of a pixel in the key image is nearest to a match.
-double triangulate(const Eigen::Vector3d& ray_C, const Eigen::Matrix3d& R_CK, const Eigen::Vector3d& p_CK,
+double triangulate(const Eigen::Vector3d& ray_C, const Eigen::Matrix3d& R_CCk, const Eigen::Vector3d& p_CCk,
                    const Eigen::Vector2d& match_px) {
   const auto off_px = [&](double per_m) {
-    const Eigen::Vector3d p_K = R_CK.transpose() * (ray_C - per_m * p_CK);
-    return (175.0 * p_K.head<2>() / p_K.z() - match_px).norm();
+    const Eigen::Vector3d p_Ck = R_CCk.transpose() * (ray_C - per_m * p_CCk);
+    return (175.0 * p_Ck.head<2>() / p_Ck.z() - match_px).norm();
   };
   double low = 0.0, high = 0.6;
   for (int i = 0; i < 60; ++i) {  // the distance has one minimum
@@ -138,7 +138,7 @@ TEST(PlaneSweep, SigmaOfMatchAndMotionIsThatOfAMonteCarloSimulation) {
   constexpr double kMatchPx = 0.2, kPositionM = 0.01, kTurnRad = 1e-3, kPerM = 0.15;
   constexpr int kDraws = 3000;
   constexpr double kSampling = 0.08;  // three times the relative error of a deviation from this many draws, and more
-  const Eigen::Vector3d p_CK(-0.1, 0.05, -1.0);
+  const Eigen::Vector3d p_CCk(-0.1, 0.05, -1.0);
   std::mt19937_64 generator(7);
   std::normal_distribution<double> normal;
   const auto vector = [&](double sigma) {
@@ -146,18 +146,18 @@ TEST(PlaneSweep, SigmaOfMatchAndMotionIsThatOfAMonteCarloSimulation) {
   };
   for (const Eigen::Vector3d& ray_C :
        {Eigen::Vector3d(0.5, 0.1, 1.0), Eigen::Vector3d(-0.3, 0.4, 1.0), Eigen::Vector3d(0.1, 0.15, 1.0)}) {
-    const Eigen::Vector3d p_K = ray_C - kPerM * p_CK;
-    const Eigen::Vector2d true_px = 175.0 * p_K.head<2>() / p_K.z();
+    const Eigen::Vector3d p_Ck = ray_C - kPerM * p_CCk;
+    const Eigen::Vector2d true_px = 175.0 * p_Ck.head<2>() / p_Ck.z();
     double sum2 = 0.0;
     for (int i = 0; i < kDraws; ++i) {
       const Eigen::Vector3d turn = vector(kTurnRad);
-      const Eigen::Matrix3d R_CK = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+      const Eigen::Matrix3d R_CCk = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
       const Eigen::Vector2d match_px = true_px + kMatchPx * Eigen::Vector2d(normal(generator), normal(generator));
-      const double error = triangulate(ray_C, R_CK, p_CK + vector(kPositionM), match_px) - kPerM;
+      const double error = triangulate(ray_C, R_CCk, p_CCk + vector(kPositionM), match_px) - kPerM;
       sum2 += error * error;
     }
     constexpr double kNoNoise = 1e-9;
-    const CameraMotion motion{Eigen::Matrix3d::Identity(), p_CK, kPositionM, kTurnRad};
+    const CameraMotion motion{Eigen::Matrix3d::Identity(), p_CCk, kPositionM, kTurnRad};
     const double sigma =
         sigma_of_inverse_depth(ray_C, motion, kPerM, 175.0, {1.0, 0.0, 1.0}, {kNoNoise, kMatchPx, 0.0});
     EXPECT_NEAR(sigma / std::sqrt(sum2 / kDraws), 1.0, kSampling) << ray_C.transpose();
