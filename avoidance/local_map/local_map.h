@@ -41,8 +41,9 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<LocalMapConfig> auto& c) {
   v("depth", c.depth,
     {.choices = {"stereo", "camera", "motion"},
-     .meaning = "source of depth: matched cameras 'left' and 'right', a camera 'depth', or a camera 'front' and its own "
-                "motion"});
+     .meaning =
+         "source of depth: matched cameras 'left' and 'right', a camera 'depth', or a camera 'front' and its own "
+         "motion"});
   v("pairs", c.pairs,
     {.meaning = "further pairs, or depth cameras, in any direction, as prefixes of their roles: aft for aft_left and "
                 "aft_right"});

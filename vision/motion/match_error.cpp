@@ -5,7 +5,7 @@
 
 namespace hedgehop::vision::motion {
 
-constexpr double kNoLength = 1e-12;  // px, where no direction is defined
+constexpr double kNoLength = 1e-12;  // px; shorter displacements have no direction
 
 double noise_px2(const Eigen::Vector3d& gradients, const Eigen::Vector2d& along_px, const MatchNoise& noise) {
   const Eigen::Vector2d e = along_px / std::max(along_px.norm(), kNoLength);

@@ -21,7 +21,7 @@ struct MatchNoise {
 
 /// Returns the displacement of a match in the key image per change of inverse depth.
 /// @param ray_C  of the pixel, scaled to z = 1. @param per_m  inverse depth, 1/m. @param focal_px  focal length.
-/// @return px m. Zero at the focus of expansion, where depth is not observable.
+/// @return px m. Zero at the focus of expansion: depth there is not observable.
 Eigen::Vector2d displacement(const Eigen::Vector3d& ray_C, const Eigen::Vector3d& p_CCk, double per_m, double focal_px);
 
 /// Returns the variance of a match caused by grey noise, px^2: the Cramer-Rao bound for the squared difference of two

@@ -191,7 +191,7 @@ void PlaneSweep::find_second(const Eigen::Vector3d& p_CCk) {
   }
 }
 
-/// Sets `matched_` where the match is unique and no different match of less cost has the same place in the key image.
+/// Sets `matched_` at unique matches whose place in the key image has no different match of less cost.
 void PlaneSweep::find_covered(const Eigen::Vector3d& p_CCk, const cv::Mat& valid) {
   key_cost_.assign(pixels(), kNoCost);
   key_plane_.assign(pixels(), 0);

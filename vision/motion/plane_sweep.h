@@ -18,8 +18,8 @@ struct InverseDepth {
 
 /// Computes depth from two images of one moving pinhole camera by a plane sweep: the derotated key image is compared
 /// with the current one for planes z = constant in C, equally spaced in inverse depth: [Collins1996] p. 358. Such a
-/// plane only scales and shifts the image, so windows keep their size next to the focus of expansion, where an
-/// epipolar rectification would not.
+/// plane only scales and shifts the image. Windows therefore keep their size next to the focus of expansion, unlike
+/// those of an epipolar rectification.
 /// - Images have half of the camera's resolution, less a local mean, because vignetting changes the brightness of a
 ///   point that moves through the image.
 /// - A match is rejected if another depth costs about the same, or if a cheaper match covers its place in the key

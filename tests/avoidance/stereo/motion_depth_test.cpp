@@ -65,7 +65,7 @@ TEST(MotionDepth, FollowsVelocityAndGyrosOnly) {
   NavigationState corrected = flight.navigation;
   corrected.p_WB_est += Eigen::Vector3d(0.5, -0.5, 0.3);
   corrected.q_WB_est = corrected.q_WB_est * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY());
-  corrected.v_WB_B_est.setZero();  // this image is taken where the last one was
+  corrected.v_WB_B_est.setZero();  // a second image at the same place
   const InverseDepth depth = flight.depth.update(flight.image.grey, corrected, flight.t_s + 1e-6);
   ASSERT_GT(matched(depth), 500);
   int right = 0;

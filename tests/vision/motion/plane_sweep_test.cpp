@@ -50,7 +50,7 @@ struct Errors {
   double matched = 0.0;               ///< share of all pixels
 };
 
-/// Compares depth with ray casting, where the surface is continuous over a window.
+/// Compares depth with ray casting, except at windows across a step in depth.
 Errors errors_of(const InverseDepth& depth, const cv::Mat& truth_per_m) {
   constexpr int kEdgePx = 10;
   constexpr float kStepPerM = 0.06F;
@@ -198,7 +198,7 @@ TEST(PlaneSweep, ScatterByGreyNoiseIsThatOfTheBound) {
   EXPECT_LT(std::sqrt(ratio2 / pixels), kMostRatio);
 }
 
-TEST(PlaneSweep, SmoothAreasAndStandingCamerasHaveNoDepth) {
+TEST(PlaneSweep, SmoothAreasAndCamerasAtRestHaveNoDepth) {
   CastWorld plain;
   plain.contrast = 0.0;
   const InverseDepth none = match(fly(plain, {0.8, 0.0, 0.0}, kNoiseGrey, 3));
@@ -207,8 +207,8 @@ TEST(PlaneSweep, SmoothAreasAndStandingCamerasHaveNoDepth) {
     for (int u = 0; u < none.per_m.cols; ++u) matched += !std::isnan(none.per_m.at<float>(v, u));
   }
   EXPECT_LT(matched, 0.05 * none.per_m.rows * none.per_m.cols);
-  const InverseDepth standing = match(fly({}, Eigen::Vector3d::Zero(), 0.0, 4));
-  EXPECT_EQ(cv::countNonZero(standing.per_m == standing.per_m), 0);
+  const InverseDepth at_rest = match(fly({}, Eigen::Vector3d::Zero(), 0.0, 4));
+  EXPECT_EQ(cv::countNonZero(at_rest.per_m == at_rest.per_m), 0);
 }
 
 TEST(PlaneSweep, RefusesOddSizesAndOblongPixels) {
