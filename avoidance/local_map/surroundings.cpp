@@ -143,7 +143,7 @@ void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation
     vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
   }
   map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
-  // Depth from motion assumes that everything else stands.
+  // Depth from motion assumes that the world does not move.
   if (config_.depth != DisparitySource::From::motion) track_moving_obstacles(t_s, pair, X_WC);
 }
 
