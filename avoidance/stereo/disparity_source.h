@@ -46,8 +46,6 @@ class DisparitySource {
   const cv::Mat& disparity16() const { return disparity16_; }
   /// CV_16SC1, 1-sigma error of the disparity x 16 at matched pixels; empty if it is not known pixel by pixel.
   const cv::Mat& sigma16() const { return sigma16_; }
-  /// Distance of the two views that were compared last, m; 0 if the camera has not moved far enough.
-  double baseline_m() const { return motion_ ? motion_->baseline_m() : geometry_.baseline_m; }
   /// CV_32FC1, z in C, m, as measured by a depth camera; empty for a pair.
   const cv::Mat& depth_m() const { return depth_m_; }
   const vision::stereo::StereoGeometry& geometry() const { return geometry_; }
