@@ -46,13 +46,13 @@ TEST(MotionDepth, HasNoDepthWithoutMotion) {
   EXPECT_EQ(flight.depth.baseline_m(), 0.0);
 }
 
-TEST(MotionDepth, BaselineGrowsWithTheDistanceOfTheNearestSurface) {
+TEST(MotionDepth, BaselineFollowsTheDistanceOfTheNearestSurface) {
   Flight flight;
-  for (int i = 0; i < 25; ++i) flight.fly(1.5);
+  flight.world.box = Eigen::AlignedBox3d(Eigen::Vector3d(-6.0, 0.4, -0.8), Eigen::Vector3d(-5.0, 1.6, 1.5));  // behind
+  for (int i = 0; i < 20; ++i) flight.fly(2.0);  // the ground is the nearest surface in view, at 3 m
   const double far_m = flight.depth.baseline_m();
-  flight.world.wall_m = flight.navigation.p_WB_est.x() + 2.0;
-  for (int i = 0; i < 5; ++i) flight.fly(1.0);
-  EXPECT_GT(far_m, 0.3);
+  for (int i = 0; i < 18; ++i) flight.fly(2.0);  // the wall, at 1.4 m
+  EXPECT_GT(far_m, 0.5);
   EXPECT_LT(flight.depth.baseline_m(), 0.8 * far_m);
 }
 
