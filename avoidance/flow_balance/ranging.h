@@ -167,6 +167,8 @@ class WallRanging final : public Ranging {
   PerSide nearest_per_m() const override { return patches_.nearest_per_m(); }
   /// Ranges of walls from the hull, independent of the camera positions.
   PerSide left_once_stopped_per_m(const Approach& approach) const override;
+  /// The walls of the last images, in H.
+  std::span<const vision::flow::WallEstimate> walls() const { return walls_; }
 
  private:
   double left_on_side_per_m(const Eigen::Vector2d& axis_H, const Approach& approach) const;

@@ -12,7 +12,7 @@ namespace hedgehop::avoidance::flow_balance {
 
 /// Explores a room: flies along diagonals and reverses in front of walls. It has no goal except an altitude and a
 /// heading. Source: [Garratt2009] sec. 4: zig_zag_law.h. The additions of the modified law: PatchRanging, WallRanging,
-/// ConfirmedZigZag.
+/// ConfirmedZigZag, turn_clearance.h, VisitedFloor.
 struct ZigZagConfig {
   static constexpr std::string_view kName = "zig_zag";
   static constexpr std::string_view kMeaning =
@@ -33,8 +33,10 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<ZigZagConfig> auto& c) {
   v("law", c.law,
     {.choices = {"published", "modified"},
-     .meaning = "published: ranges from the mean flow and loom of each camera, [Garratt2009] sec. 4; modified: "
-                "derotated flow, ranges of fitted walls, stopping distance, confirmed reversals"});
+     .meaning =
+         "published: ranges from the mean flow and loom of each camera, [Garratt2009] sec. 4; modified: "
+         "derotated flow, ranges of fitted walls, stopping distance, confirmed reversals, turns away from both walls "
+         "of a corner, memory of the visited floor"});
   v("flow", c.flow, {.meaning = "grid of patches on each camera and flow algorithm"});
   v("forward_speed", c.forward_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed along the heading"});
   v("sideways_speed", c.sideways_speed_mps, {.unit = "m/s", .above = 0.0, .meaning = "speed across the heading"});
@@ -54,7 +56,9 @@ void describe(Visitor& v, fields::ConfigOf<ZigZagConfig> auto& c) {
     {.unit = "deg",
      .at_least = 0.0,
      .at_most = 30.0,
-     .meaning = "modified law: maximum random rotation of the path from its diagonal at each reversal"});
+     .meaning =
+         "modified law: maximum rotation of the path from its diagonal; each reversal compares random angles and "
+         "takes the one with the maximum of unvisited floor"});
 }
 
 /// Throws std::invalid_argument if a value is out of range.

@@ -79,14 +79,63 @@ TEST(ConfirmedZigZag, RotatesThePathWithinItsMaximumAngleAndRepeatsWithTheSeed) 
   EXPECT_EQ(forward_mps.size(), 200u);
 }
 
-TEST(ConfirmedZigZag, IsInACornerOnlyWithWallsAheadOfBothComponents) {
+TEST(ConfirmedZigZag, ReversesBothComponentsOnlyWithWallsAheadOfBoth) {
   const ConfirmedZigZag path = zig_zag();
-  const auto in_corner = [&](double front_m, double right_m, double rear_m, double left_m) {
-    return path.in_corner(sides(1.0 / front_m, 1.0 / right_m, 1.0 / rear_m, 1.0 / left_m));
+  const auto reverses_both = [&](double front_m, double right_m, double rear_m, double left_m) {
+    return path.reverses_both(sides(1.0 / front_m, 1.0 / right_m, 1.0 / rear_m, 1.0 / left_m), {});
   };
-  EXPECT_TRUE(in_corner(1.9, 1.9, 9.0, 9.0));
-  EXPECT_FALSE(in_corner(1.9, 2.1, 9.0, 9.0));
-  EXPECT_FALSE(in_corner(1.9, 9.0, 1.0, 1.0));  // at first the path leads to the front and the right
+  EXPECT_TRUE(reverses_both(1.9, 1.9, 9.0, 9.0));
+  EXPECT_FALSE(reverses_both(1.9, 2.1, 9.0, 9.0));
+  EXPECT_FALSE(reverses_both(1.9, 9.0, 1.0, 1.0));  // at first the path leads to the front and the right
+}
+
+// A corner at a heading across the room: away from the wall in front, the path would lead to the wall on the left.
+ConfirmedZigZag::Path beside_a_corner(const Eigen::Vector2d& v_H) {
+  return {.clearance_m = v_H.x() < 0.0 && v_H.y() > 0.0 ? 0.3 : 1.0, .unvisited = 0.0};
+}
+
+TEST(ConfirmedZigZag, TurnsAwayFromBothWallsOfACornerAtOnce) {
+  ConfirmedZigZag path = zig_zag();
+  const auto walls = sides(0.6, 0.0, 0.0, 0.0);
+  EXPECT_TRUE(path.reverses_both(walls, beside_a_corner));
+  EXPECT_FALSE(path.update(walls, beside_a_corner));
+  EXPECT_TRUE(path.update(walls, beside_a_corner));
+  EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(-1.0, -0.5));
+}
+
+TEST(ConfirmedZigZag, ChoosesThePathOverUnvisitedFloorAmongThoseThatKeepTheClearance) {
+  for (const double side : {-1.0, 1.0}) {
+    ConfirmedZigZag path = zig_zag(0.3);
+    const Eigen::Vector2d diagonal = Eigen::Vector2d(-1.0, 0.5).normalized();
+    const auto turned_rad = [&](const Eigen::Vector2d& v_H) {
+      return std::atan2(diagonal.x() * v_H.y() - diagonal.y() * v_H.x(), diagonal.dot(v_H));
+    };
+    // More floor the further the path turns to one side, but too little clearance beyond 0.2 rad.
+    const auto foresee = [&](const Eigen::Vector2d& v_H) {
+      const double to_side_rad = side * turned_rad(v_H);
+      return ConfirmedZigZag::Path{.clearance_m = to_side_rad > 0.2 ? 0.5 : 1.0, .unvisited = to_side_rad};
+    };
+    const auto walls = sides(0.9, 0.0, 0.0, 0.0);
+    path.update(walls, foresee);
+    ASSERT_TRUE(path.update(walls, foresee));
+    const double to_side_rad = side * turned_rad(path.velocity_H());
+    EXPECT_LE(to_side_rad, 0.2);
+    EXPECT_GT(to_side_rad, 0.0);
+  }
+}
+
+TEST(ConfirmedZigZag, TurnsBeforeTheNextWallIfOnlyAnotherPathHasUnvisitedFloor) {
+  constexpr int kUpdates = 100;
+  for (const double squares : {2.0, 5.0}) {
+    ConfirmedZigZag path = zig_zag();
+    const auto foresee = [&](const Eigen::Vector2d& v_H) {
+      return ConfirmedZigZag::Path{.clearance_m = 1.0, .unvisited = v_H.x() < 0.0 && v_H.y() > 0.0 ? squares : 0.0};
+    };
+    for (int i = 0; i < kUpdates; ++i) path.update(sides(0.0, 0.0, 0.0, 0.0), foresee);
+    const bool worth_a_turn = squares > 3.0;
+    EXPECT_EQ(path.reversals(), worth_a_turn ? 1 : 0);
+    EXPECT_EQ(path.velocity_H(), Eigen::Vector2d(worth_a_turn ? -1.0 : 1.0, 0.5));
+  }
 }
 
 }  // namespace
