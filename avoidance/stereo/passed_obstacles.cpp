@@ -32,6 +32,9 @@ void PassedObstacles::update(int64_t t_ns, const vision::stereo::DepthPyramid& p
       visible_.push_back({X_WC * (geometry.z_m(d) * geometry.ray_at_unit_depth(center)), t_ns});
     }
   }
+  constexpr double kRecentS = 1.0;
+  std::erase_if(recent_, [&](const Point& point) { return seconds(t_ns - point.t_ns) > kRecentS; });
+  recent_.insert(recent_.end(), visible_.begin(), visible_.end());
 }
 
 bool PassedObstacles::in_view(const Eigen::Vector3d& p_CP, const vision::stereo::DepthPyramid& pyramid,
@@ -50,12 +53,13 @@ bool PassedObstacles::free(const Eigen::Vector3d& direction_W, double reach_m, A
   const Eigen::Vector3d ahead = direction_W.normalized();
   const auto is_met = [&](const Point& point) {
     const Eigen::Vector3d p = point.p_WP - p_WC_;
+    if (among == Among::all && p.norm() < config_.radius_m) return true;
     const double along_m = p.dot(ahead);
     const double aside_m = std::min(config_.radius_m, kNoCloser * p.norm());
     const double past_m = std::max(0.0, along_m - reach_m);
     return along_m > 0.0 && p.squaredNorm() - along_m * along_m + past_m * past_m < aside_m * aside_m;
   };
-  return std::ranges::none_of(hidden_, is_met) && (among == Among::hidden || std::ranges::none_of(visible_, is_met));
+  return std::ranges::none_of(hidden_, is_met) && (among == Among::hidden || std::ranges::none_of(recent_, is_met));
 }
 
 double PassedObstacles::nearest_m() const {

@@ -32,7 +32,8 @@ class PassedObstacles {
 
   /// Returns whether a straight path from the camera along `direction_W` (any length above 0) keeps the distance
   /// `radius_m` from all remembered points. If an obstacle is closer already, it may come closer by a tenth.
-  /// @param reach_m  length of the path, >= 0. @param among  all: points in view count too.
+  /// @param reach_m  length of the path, >= 0. @param among  all: points seen in the last second count too, in view or
+  /// not, and no point may be within the radius of the camera, also beside or behind it.
   bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity(),
             Among among = Among::hidden) const;
 
@@ -52,6 +53,7 @@ class PassedObstacles {
   PassedObstaclesConfig config_;
   std::vector<Point> hidden_;   ///< out of view of the last image
   std::vector<Point> visible_;  ///< in the last image
+  std::vector<Point> recent_;   ///< in the images of the last second: a thin obstacle is not matched in every image
   Eigen::Vector3d p_WC_ = Eigen::Vector3d::Zero();
 };
 

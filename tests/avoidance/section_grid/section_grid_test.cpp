@@ -253,7 +253,7 @@ TEST(SectionGridModule, StaysAsideWhileAnObstacleInViewIsCloserToThePathThanTheR
     SectionGridConfig config;
     config.passed_radius_m = radius_m;
     Pilot pilot(config);
-    pilot.see(near_between(0, 80));
+    pilot.see(near_between(0, 60));  // 0.9 m to the left of the path
     // A wire 1.9 m ahead, 0.6 m above the path to the goal and above the middle section.
     cv::Mat wire = far();
     wire.rowRange(15, 19).setTo(1.9);

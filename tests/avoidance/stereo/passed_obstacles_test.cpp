@@ -92,6 +92,29 @@ TEST(PassedObstacles, ObstacleInViewCountsOnlyIfAllAreTested) {
   EXPECT_TRUE(passed.free(towards(0.5), kAnyM, PassedObstacles::Among::all)) << "it passes at 2.9 m";
 }
 
+TEST(PassedObstacles, ObstacleThatTheLastImagesMissCountsForASecondIfAllAreTested) {
+  constexpr double kAnyM = std::numeric_limits<double>::infinity();
+  PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
+  passed.update(0, block_at({76, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
+  for (const double t_s : {0.4, 0.9, 1.4}) {
+    passed.update(static_cast<int64_t>(t_s * kSecondNs), kSky, kGeometry, looking(0.0));
+    EXPECT_TRUE(passed.free(towards(0.0)));
+    EXPECT_EQ(passed.free(towards(0.0), kAnyM, PassedObstacles::Among::all), t_s > 1.0) << t_s;
+  }
+}
+
+TEST(PassedObstacles, ObstacleBehindTheCameraCountsUntilItIsFartherThanTheRadius) {
+  constexpr double kAnyM = std::numeric_limits<double>::infinity();
+  for (const double past_m : {1.0, 2.0}) {
+    PassedObstacles passed({.radius_m = 1.5, .near_m = 12.0, .keep_s = 8.0});
+    passed.update(0, block_at({72, 56, 8, 8}, 6.0), kGeometry, looking(0.0));
+    passed.update(kSecondNs, kSky, kGeometry, looking(0.0, {6.0 + past_m, 0.0, 0.0}));
+    ASSERT_EQ(passed.points_W().size(), 1u);
+    EXPECT_TRUE(passed.free(towards(0.0)));
+    EXPECT_EQ(passed.free(towards(0.0), kAnyM, PassedObstacles::Among::all), past_m > 1.5);
+  }
+}
+
 TEST(PassedObstacles, PointThatIsInViewAgainIsDeleted) {
   PassedObstacles passed({});
   passed.update(0, block_at({140, 50, 16, 16}, 6.0), kGeometry, looking(0.0));
