@@ -78,7 +78,7 @@ void describe(Visitor& v, fields::ConfigOf<SectionGridConfig> auto& c) {
     {.unit = "m",
      .at_least = 0.0,
      .meaning = "modified: radius of the cylinder that must be free of obstacles that have left the image, and, before "
-                "the route is resumed, also of those in view; 0 disables the test"});
+                "the route is resumed, also of those seen in the last second; 0 disables the test"});
   v("unknown", c.unknown,
     {.choices = {"free", "threat"},
      .meaning = "modified: treatment of a pixel without depth; threat stops in front of plain walls, and in front of "

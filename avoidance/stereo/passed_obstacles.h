@@ -33,7 +33,7 @@ class PassedObstacles {
   /// Returns whether a straight path from the camera along `direction_W` (any length above 0) keeps the distance
   /// `radius_m` from all remembered points. If an obstacle is closer already, it may come closer by a tenth.
   /// @param reach_m  length of the path, >= 0. @param among  all: points seen in the last second count too, in view or
-  /// not, and no point may be within the radius of the camera, also beside or behind it.
+  /// not, and no point may be within the radius of the camera, in any direction.
   bool free(const Eigen::Vector3d& direction_W, double reach_m = std::numeric_limits<double>::infinity(),
             Among among = Among::hidden) const;
 
