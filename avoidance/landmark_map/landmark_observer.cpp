@@ -23,7 +23,7 @@ vision::landmarks::LandmarkMapConfig with_law(vision::landmarks::LandmarkMapConf
 }
 
 vision::landmarks::LandmarkBundle bundle_of(const LandmarkObserverConfig& config, const MountedCamera& camera) {
-  const vision::landmarks::LandmarkBundleConfig& c = fields::require_bounds(config.adjustment, "adjustment");
+  const vision::landmarks::LandmarkBundleConfig& c = fields::require_bounds(*config.adjustment, "adjustment");
   const vision::landmarks::BundleNoise noise{
       .bearing = c.pixel_sigma_px / camera.model.pinhole().focal_x_px,
       .position_m = std::max(config.map.position_sigma_m, kMinPositionSigmaM),
@@ -58,7 +58,7 @@ std::vector<Eigen::Vector2d> listed_corners(const cv::Mat& corners) {
 
 LandmarkObserver::LandmarkObserver(const LandmarkObserverConfig& config, Law law, const MountedCamera& camera)
     : config_(config), camera_(camera), map_(with_law(config.map, law), camera.model.pinhole()) {
-  if (law == Law::modified) bundle_.emplace(bundle_of(config, camera));
+  if (law == Law::modified && config.adjustment) bundle_.emplace(bundle_of(config, camera));
 }
 
 CameraNeed LandmarkObserver::need(const LandmarkObserverConfig& config) {

@@ -24,7 +24,7 @@ struct LandmarkObserverConfig {
   CornerSource source = CornerSource::grey;
   double least_corner_angle_rad = 0.2;
   vision::landmarks::LandmarkMapConfig map;
-  vision::landmarks::LandmarkBundleConfig adjustment;
+  std::optional<vision::landmarks::LandmarkBundleConfig> adjustment;
 };
 
 template <class Visitor>
@@ -37,11 +37,13 @@ void describe(Visitor& v, fields::ConfigOf<LandmarkObserverConfig> auto& c) {
     {.unit = "deg", .above = 0.0, .at_most = 90.0, .meaning = "minimum angle between the edges of a corner"});
   v("map", c.map, {.meaning = "estimation, matching and deletion of landmarks"});
   v("adjustment", c.adjustment,
-    {.meaning = "joint estimation of camera poses and landmarks from all images; only with `law: modified`"});
+    {.meaning =
+         "joint estimation of camera poses and landmarks from all images; only with `law: modified`, and with the "
+         "thesis's sensors"});
 }
 
-/// Builds a map of landmarks from the frames of one camera. With `law: modified`, an adjustment of all images
-/// (vision/landmarks/landmark_bundle.h) corrects the filter every 2 s.
+/// Builds a map of landmarks from the frames of one camera. With `law: modified` and `adjustment`, an adjustment of all
+/// images (vision/landmarks/landmark_bundle.h) corrects the filter every 2 s.
 class LandmarkObserver {
  public:
   /// @param law  law of the map. Throws std::invalid_argument on a bad config.
@@ -69,7 +71,7 @@ class LandmarkObserver {
   LandmarkObserverConfig config_;
   MountedCamera camera_;
   vision::landmarks::LandmarkMap map_;
-  std::optional<vision::landmarks::LandmarkBundle> bundle_;  ///< only with `law: modified`
+  std::optional<vision::landmarks::LandmarkBundle> bundle_;  ///< only with `law: modified` and `adjustment`
   vision::landmarks::CameraPose pose_;
   std::vector<Eigen::Vector2d> corners_px_;
   cv::Mat grey_;
