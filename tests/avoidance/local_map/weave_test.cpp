@@ -9,13 +9,13 @@ namespace {
 
 /// A point that flies straight to each end.
 TEST(Weave, CrossesItsPositionAtRightAnglesToTheNose) {
-  constexpr double kStepS = 0.1, kSpeedMps = 0.5;
+  constexpr double kStepS = 0.1, kWeaveSpeedMps = 0.5;
   Weave weave;
   PathState now{0.0, {3.0, 4.0}, {0.0, 0.0}};
   double left_m = 0.0, right_m = 0.0;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector2d off_W = weave.target_W(now, /*heading_rad=*/0.0) - now.p_W;
-    now.p_W += std::min(1.0, kSpeedMps * kStepS / off_W.norm()) * off_W;
+    now.p_W += std::min(1.0, kWeaveSpeedMps * kStepS / off_W.norm()) * off_W;
     now.t_s += kStepS;
     left_m = std::min(left_m, now.p_W.y() - 4.0);
     right_m = std::max(right_m, now.p_W.y() - 4.0);
