@@ -119,7 +119,10 @@ inline constexpr auto kJudgesMetrics = std::to_array<std::string_view>({"success
                                                                         "map_error_percent",
                                                                         "converged_s",
                                                                         "false_landmarks",
-                                                                        "false_on_ground"});
+                                                                        "false_on_ground",
+                                                                        "aligned_corners_found",
+                                                                        "aligned_map_precision",
+                                                                        "map_shift_m"});
 
 struct MetricCheck {
   static constexpr std::string_view kName = "metric";

@@ -42,18 +42,24 @@ class MapScore {
   /// by
   ///   the distance of the corner from the start of the flight; 100 % for an unmatched corner;
   ///   `converged_s`: time since which it has been within 3 %; NaN if it is not. [Shah2009] ch. 6 does not define the
-  ///   denominator.
+  ///   denominator;
+  /// - `aligned_corners_found`, `aligned_map_precision`: recall and precision after align_map(), the shape of the map;
+  ///   `map_shift_m`: mean displacement of the map by the alignment, its position. NaN if it cannot be aligned.
   std::vector<MetricValue> metrics() const;
 
  private:
   std::vector<RecordedCorner> corners() const;
   double error_percent(size_t corner, const Eigen::Vector3d& p_W) const;
   void count_false(std::span<const Eigen::Vector3d> map_W);
+  bool counts(size_t corner) const { return seen_s_[corner] >= kMinSeenS; }
+  std::vector<MetricValue> aligned_metrics() const;
 
+  static constexpr double kMinSeenS = 10.0;
   std::vector<Eigen::Vector3d> corners_W_;
   double tolerance_m_;
   std::vector<double> distances_m_, seen_s_;
   std::vector<bool> is_true_, is_found_;
+  std::vector<Eigen::Vector3d> map_W_;  ///< the last map
   double last_t_s_ = 0.0;
   bool had_points_ = false;
   double error_percent_ = 100.0, converged_s_ = NAN, complete_s_ = NAN, recall_ = 0.0, precision_ = 0.0;

@@ -29,9 +29,10 @@ struct Landmark {
 struct MappedLandmark {
   int64_t id = 0;  ///< from 0, in the order of initialization
   Landmark landmark;
-  int matches = 0;      ///< number of images in which it was matched, including the first
-  int misses = 0;       ///< consecutive images with it in view, but without a match
-  int passed_over = 0;  ///< such images between its first and last match
+  int matches = 0;        ///< number of images in which it was matched, including the first
+  int misses = 0;         ///< consecutive images with it in view, but without a match
+  int passed_over = 0;    ///< such images between its first and last match
+  bool rejected = false;  ///< it is not a fixed point, according to the adjustment of all images (landmark_bundle.h)
 };
 
 /// The camera's estimated pose and its 1-sigma uncertainty.

@@ -115,6 +115,21 @@ std::vector<int64_t> LandmarkMap::update_as_modified(std::span<const Eigen::Vect
   return ids;
 }
 
+void LandmarkMap::refine(std::span<const AdjustedLandmark> adjusted) {
+  for (const AdjustedLandmark& one : adjusted) {
+    const auto mapped = std::ranges::find(landmarks_, one.id, &MappedLandmark::id);
+    if (mapped == landmarks_.end()) continue;
+    if (one.is_duplicate) {
+      landmarks_.erase(mapped);
+      continue;
+    }
+    mapped->landmark.coordinates = LandmarkCoordinates::cartesian;
+    mapped->landmark.x = one.p_W;
+    mapped->landmark.P = one.covariance_W;
+    mapped->rejected = !one.is_point;
+  }
+}
+
 /// Returns whether a landmark is kept although it is missed, because it is probably occluded: it was matched in at
 /// least half of the images between its first and last match, and its position is well known.
 bool LandmarkMap::is_persistent(const MappedLandmark& mapped) const {

@@ -8,6 +8,7 @@
 #include "sim/fields/field.h"
 #include "vision/camera/pinhole_camera.h"
 #include "vision/landmarks/landmark.h"
+#include "vision/landmarks/landmark_bundle.h"
 
 namespace hedgehop::vision::landmarks {
 
@@ -69,11 +70,15 @@ class LandmarkMap {
   /// @return for each corner the id of its landmark, new or existing.
   std::vector<int64_t> update(std::span<const Eigen::Vector2d> corners_px, const CameraPose& pose, double dt_s);
 
+  /// Replaces estimates by those of an adjustment, rejects landmarks that are not points, and deletes duplicates. The
+  /// filter continues from there until the next adjustment, which does not use the filter's estimates.
+  void refine(std::span<const AdjustedLandmark> adjusted);
+
   /// Returns all landmarks in increasing order of id.
   const std::vector<MappedLandmark>& landmarks() const { return landmarks_; }
   /// Returns whether a landmark is part of the map; always true for the published algorithm.
   bool confirmed(const MappedLandmark& landmark) const {
-    return config_.algorithm == MapAlgorithm::published || landmark.matches >= config_.confirm;
+    return config_.algorithm == MapAlgorithm::published || (landmark.matches >= config_.confirm && !landmark.rejected);
   }
 
  private:

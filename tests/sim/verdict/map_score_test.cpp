@@ -162,5 +162,32 @@ TEST(MapScore, RecordOfAModuleWithoutAMapStaysEmpty) {
   EXPECT_TRUE(map.corners.empty());
 }
 
+// The whole map is turned by 2 degrees about the vertical and displaced by 1.5 m. Its fifth point is 2.5 m off besides.
+TEST(MapScore, AlignmentSeparatesTheShapeOfAMapFromItsPosition) {
+  const std::vector<Vector3d> corners_W = {{20, 0, 0}, {0, 20, -10}, {-20, 0, 0}, {0, -20, -10}, {10, 10, -30}};
+  const Eigen::AngleAxisd turn(2.0 * M_PI / 180.0, Vector3d::UnitZ());
+  std::vector<Vector3d> exact, distorted;
+  for (const Vector3d& corner_W : corners_W) exact.emplace_back(turn * corner_W + Vector3d(0.9, 1.2, 0.0));
+  distorted = exact;
+  distorted.back().z() += 2.5;
+
+  MapScore score(corners_W, Vector3d::Zero(), kToleranceM);
+  score.add(20.0, exact, std::vector<bool>(5, true));
+  EXPECT_LT(values(score).at("corners_found"), 0.5);
+  EXPECT_EQ(values(score).at("aligned_corners_found"), 1.0);
+  EXPECT_EQ(values(score).at("aligned_map_precision"), 1.0);
+  EXPECT_NEAR(values(score).at("map_shift_m"), 1.5, 0.2);  // the turn moves points by up to 0.7 m
+
+  score.add(21.0, distorted, std::vector<bool>(5, true));
+  EXPECT_EQ(values(score).at("aligned_corners_found"), 0.8);
+  EXPECT_EQ(values(score).at("aligned_map_precision"), 0.8);
+}
+
+TEST(MapScore, AlignmentNeedsTwoPairs) {
+  MapScore score({{20, 0, 0}, {0, 20, 0}}, Vector3d::Zero(), kToleranceM);
+  score.add(20.0, std::vector<Vector3d>{{20, 0, 0}}, {true, true});
+  EXPECT_TRUE(std::isnan(values(score).at("map_shift_m")));
+}
+
 }  // namespace
 }  // namespace hedgehop::sim

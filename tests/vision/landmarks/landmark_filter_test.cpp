@@ -54,6 +54,22 @@ TEST_F(LandmarkMapOfAFixedCamera, DeletesAConfirmedLandmarkAfterItsMaximumOfMiss
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
+TEST_F(LandmarkMapOfAFixedCamera, TakesEstimatesFromAnAdjustment) {
+  std::vector<int64_t> ids;
+  for (int i = 0; i < config_.confirm; ++i) ids = see({{100, 100}, {500, 300}, {320, 240}});
+  const Eigen::Vector3d p_W(1.0, 2.0, -3.0);
+  const Eigen::Matrix3d P_W = 0.04 * Eigen::Matrix3d::Identity();
+  map_.refine(std::vector<AdjustedLandmark>{{.id = ids[0], .p_W = p_W, .covariance_W = P_W},
+                                            {.id = ids[1], .is_point = false},
+                                            {.id = ids[2], .is_duplicate = true},
+                                            {.id = 99, .p_W = p_W}});
+  ASSERT_EQ(map_.landmarks().size(), 2U);
+  EXPECT_EQ(position_W(map_.landmarks()[0].landmark), p_W);
+  EXPECT_EQ(covariance_W(map_.landmarks()[0].landmark), P_W);
+  EXPECT_TRUE(map_.confirmed(map_.landmarks()[0]));
+  EXPECT_FALSE(map_.confirmed(map_.landmarks()[1]));
+}
+
 TEST_F(LandmarkMapOfAFixedCamera, DeletesAnUnconfirmedLandmarkSooner) {
   see({{320, 240}});
   for (int i = 0; i < config_.unconfirmed_misses; ++i) see({});
