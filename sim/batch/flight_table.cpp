@@ -12,6 +12,7 @@
 #include "sim/config/numbers.h"
 #include "sim/config/utf8.h"
 #include "sim/flight/words.h"
+#include "sim/scenario/judge_metrics.h"
 #include "sim/scenario/validate.h"
 
 namespace hedgehop::sim {
@@ -258,7 +259,7 @@ std::string column_fault(const std::string& column, const Scenario& scenario) {
   if (column.starts_with(fmt::format("metric.{}", kModulePrefix)) || column.starts_with("time.")) return "";
   std::vector<std::string> names;
   for (const Figure& figure : kFigures) names.emplace_back(figure.name);
-  for (const std::string_view metric : kJudgesMetrics) names.push_back(fmt::format("metric.{}", metric));
+  for (const std::string_view metric : judge_metrics()) names.push_back(fmt::format("metric.{}", metric));
   for (const std::string& check : check_names(scenario)) names.push_back("check." + check);
   if (std::ranges::find(names, column) != names.end()) return "";
   for (const std::string& name : names) {

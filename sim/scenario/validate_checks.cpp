@@ -8,6 +8,7 @@
 
 #include "sim/config/names.h"
 #include "sim/scenario/formula.h"
+#include "sim/scenario/judge_metrics.h"
 #include "sim/scenario/reference_path.h"
 
 namespace hedgehop::sim {
@@ -68,9 +69,10 @@ class CheckValidator {
     ordered(path + ".east_max", "east_min", check.east_min_m, check.east_max_m);
   }
   void check(const std::string& path, const MetricCheck& check) {
-    if (!check.name.starts_with("module.") && std::ranges::find(kJudgesMetrics, check.name) == kJudgesMetrics.end()) {
+    const std::vector<std::string_view> metrics = judge_metrics();
+    if (!check.name.starts_with("module.") && std::ranges::find(metrics, check.name) == metrics.end()) {
       add(path + ".name", fmt::format("is not a metric{}; the names of a module's own metrics begin with 'module.'",
-                                      suggestion(check.name, {kJudgesMetrics.begin(), kJudgesMetrics.end()})));
+                                      suggestion(check.name, metrics)));
     }
     if (std::string fault = name_fault(check.name); !fault.empty()) add(path + ".name", std::move(fault));
     if (!check.at_least && !check.at_most) add(path, "needs 'at_least' or 'at_most'");

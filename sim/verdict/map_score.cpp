@@ -1,15 +1,17 @@
 #include "sim/verdict/map_score.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "sim/verdict/assignment.h"
+#include "sim/verdict/map_alignment.h"
 
 namespace hedgehop::sim {
 namespace {
 
-constexpr double kConvergedPercent = 3.0, kUnmatchedPercent = 100.0, kMinSeenS = 10.0, kCompleteShare = 0.9;
+constexpr double kConvergedPercent = 3.0, kUnmatchedPercent = 100.0, kCompleteShare = 0.9;
 
 /// Updates the time since which a condition holds; NaN while it does not.
 void update_since(double& since_s, bool holds, double t_s) {
@@ -36,6 +38,7 @@ double MapScore::error_percent(size_t corner, const Eigen::Vector3d& p_W) const 
 
 void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std::vector<bool>& in_sight) {
   had_points_ = had_points_ || !map_W.empty();
+  map_W_.assign(map_W.begin(), map_W.end());
   const std::vector<std::optional<Eigen::Index>> matches = match_points(corners_W_, map_W, tolerance_m_);
   double sum_percent = 0.0, found = 0.0;
   seen_count_ = 0;
@@ -49,7 +52,7 @@ void MapScore::add(double t_s, std::span<const Eigen::Vector3d> map_W, const std
       percent = error_percent(corner, map_W[point]);
     }
     if (in_sight[corner]) seen_s_[corner] += t_s - last_t_s_;
-    if (seen_s_[corner] < kMinSeenS) continue;
+    if (!counts(corner)) continue;
     ++seen_count_;
     sum_percent += percent;
     found += is_found_[corner] ? 1.0 : 0.0;
@@ -76,7 +79,7 @@ void MapScore::count_false(std::span<const Eigen::Vector3d> map_W) {
 std::vector<RecordedCorner> MapScore::corners() const {
   std::vector<RecordedCorner> corners;
   for (size_t i = 0; i < corners_W_.size(); ++i) {
-    corners.push_back({corners_W_[i], seen_s_[i] >= kMinSeenS, is_found_[i]});
+    corners.push_back({corners_W_[i], counts(i), is_found_[i]});
   }
   return corners;
 }
@@ -88,15 +91,41 @@ void MapScore::complete(MapRecord& map) const {
 
 std::vector<MetricValue> MapScore::metrics() const {
   if (!had_points_) return {};
-  return {{"corners_seen", static_cast<double>(seen_count_), ""},
-          {"corners_found", recall_, ""},
-          {"map_precision", precision_, ""},
-          {"map_tolerance_m", tolerance_m_, "m"},
-          {"map_complete_s", complete_s_, "s"},
-          {"map_error_percent", error_percent_, "%"},
-          {"converged_s", converged_s_, "s"},
-          {"false_landmarks", static_cast<double>(false_count_), ""},
-          {"false_on_ground", static_cast<double>(false_on_ground_), ""}};
+  std::vector<MetricValue> metrics{{"corners_seen", static_cast<double>(seen_count_), ""},
+                                   {"corners_found", recall_, ""},
+                                   {"map_precision", precision_, ""},
+                                   {"map_tolerance_m", tolerance_m_, "m"},
+                                   {"map_complete_s", complete_s_, "s"},
+                                   {"map_error_percent", error_percent_, "%"},
+                                   {"converged_s", converged_s_, "s"},
+                                   {"false_landmarks", static_cast<double>(false_count_), ""},
+                                   {"false_on_ground", static_cast<double>(false_on_ground_), ""}};
+  std::ranges::move(aligned_metrics(), std::back_inserter(metrics));
+  return metrics;
+}
+
+std::vector<MetricValue> MapScore::aligned_metrics() const {
+  double recall = NAN, precision = NAN, shift_m = NAN;
+  if (const auto X = align_map(corners_W_, map_W_, tolerance_m_)) {
+    const auto points = static_cast<double>(map_W_.size());
+    std::vector<Eigen::Vector3d> aligned_W;
+    shift_m = 0.0;
+    for (const Eigen::Vector3d& p_W : map_W_) {
+      aligned_W.emplace_back(*X * p_W);
+      shift_m += (aligned_W.back() - p_W).norm() / points;
+    }
+    const auto matches = match_points(corners_W_, aligned_W, tolerance_m_);
+    double matched = 0.0, found = 0.0;
+    for (size_t corner = 0; corner < matches.size(); ++corner) {
+      if (!matches[corner]) continue;
+      matched += 1.0;
+      found += counts(corner) ? 1.0 : 0.0;
+    }
+    recall = seen_count_ > 0 ? found / seen_count_ : 0.0;
+    precision = matched / points;
+  }
+  return {
+      {"aligned_corners_found", recall, ""}, {"aligned_map_precision", precision, ""}, {"map_shift_m", shift_m, "m"}};
 }
 
 namespace {

@@ -42,15 +42,22 @@ class MapScore {
   /// by
   ///   the distance of the corner from the start of the flight; 100 % for an unmatched corner;
   ///   `converged_s`: time since which it has been within 3 %; NaN if it is not. [Shah2009] ch. 6 does not define the
-  ///   denominator.
+  ///   denominator;
+  /// - `aligned_corners_found`, `aligned_map_precision`: recall and precision after align_map(), of the shape of the
+  /// map;
+  ///   `map_shift_m`: mean displacement of the map's points by it. NaN if the map cannot be aligned.
   std::vector<MetricValue> metrics() const;
 
  private:
   std::vector<RecordedCorner> corners() const;
   double error_percent(size_t corner, const Eigen::Vector3d& p_W) const;
   void count_false(std::span<const Eigen::Vector3d> map_W);
+  bool counts(size_t corner) const { return seen_s_[corner] >= kMinSeenS; }
+  std::vector<MetricValue> aligned_metrics() const;
 
+  static constexpr double kMinSeenS = 10.0;
   std::vector<Eigen::Vector3d> corners_W_;
+  std::vector<Eigen::Vector3d> map_W_;  ///< the last map
   double tolerance_m_;
   std::vector<double> distances_m_, seen_s_;
   std::vector<bool> is_true_, is_found_;

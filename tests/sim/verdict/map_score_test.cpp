@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "scenes/worlds/highrise.h"
+#include "sim/scenario/judge_metrics.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -152,6 +154,74 @@ TEST(MapScore, HasNoMetricsForAModuleWithoutAMap) {
   MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
   score.add(1.0, {}, {true});
   EXPECT_TRUE(score.metrics().empty());
+}
+
+// The whole map is turned about an oblique axis and displaced by 1.5 m. Then its last point is 2.5 m off in addition.
+TEST(MapScore, AlignmentSeparatesTheShapeOfAMapFromItsPosition) {
+  const std::vector<Vector3d> corners_W = {{20, 0, 0}, {0, 20, -10}, {-20, 0, 0}, {0, -20, -10}, {10, 10, -30}};
+  const std::vector<bool> all(5, true);
+  const Eigen::AngleAxisd turn(0.02, Vector3d(1, 2, 2) / 3.0);
+  std::vector<Vector3d> map_W;
+  double moved_m = 0.0;
+  for (const Vector3d& corner_W : corners_W) {
+    map_W.emplace_back(turn * corner_W + Vector3d(0.9, 1.2, 0.0));
+    moved_m += (map_W.back() - corner_W).norm() / 5.0;
+  }
+  MapScore score(corners_W, Vector3d::Zero(), kToleranceM);
+  score.add(20.0, map_W, all);
+  EXPECT_LT(values(score).at("corners_found"), 0.5);
+  EXPECT_EQ(values(score).at("aligned_corners_found"), 1.0);
+  EXPECT_EQ(values(score).at("aligned_map_precision"), 1.0);
+  EXPECT_NEAR(values(score).at("map_shift_m"), moved_m, 1e-9);
+
+  map_W.back().z() += 2.5;
+  score.add(21.0, map_W, all);
+  EXPECT_EQ(values(score).at("aligned_corners_found"), 0.8);
+  EXPECT_EQ(values(score).at("aligned_map_precision"), 0.8);
+}
+
+// A moved map has the figures of the map before it moved, if these are of an aligned map.
+TEST(MapScore, AlignedFiguresDoNotDependOnTheMapsPosition) {
+  const std::vector<Vector3d> corners_W = {{40, 0, 0},    {40, 20, 0}, {40, 0, -30},  {40, 20, -30},
+                                           {60, 40, -15}, {60, 50, 0}, {60, 50, -15}, {80, -20, -40}};
+  std::vector<Vector3d> map_W = corners_W;
+  map_W.erase(map_W.begin() + 2);
+  map_W.emplace_back(50, 10, -10);
+  for (size_t i = 0; i < map_W.size(); ++i) {
+    const double k = static_cast<double>(i);
+    map_W[i] += 0.2 * Vector3d(std::sin(k), std::cos(2.0 * k), std::sin(3.0 * k));
+  }
+  const Eigen::Translation3d shift(0.8, -0.9, 0.7);
+  const Eigen::Isometry3d motion = shift * Eigen::AngleAxisd(0.01, Vector3d(2, -1, 2) / 3.0);
+  const auto figures = [&](const Eigen::Isometry3d& X) {
+    std::vector<Vector3d> moved_W;
+    for (const Vector3d& p_W : map_W) moved_W.emplace_back(X * p_W);
+    MapScore score(corners_W, Vector3d::Zero(), kToleranceM);
+    score.add(20.0, moved_W, std::vector<bool>(8, true));
+    return values(score);
+  };
+  const auto here = figures(Eigen::Isometry3d::Identity()), there = figures(motion);
+  EXPECT_NE(here.at("corners_found"), there.at("corners_found"));
+  EXPECT_EQ(here.at("aligned_corners_found"), 7.0 / 8.0);
+  EXPECT_EQ(here.at("aligned_corners_found"), there.at("aligned_corners_found"));
+  EXPECT_EQ(here.at("aligned_map_precision"), there.at("aligned_map_precision"));
+}
+
+TEST(MapScore, AlignedFiguresAreUnknownWithTwoPairs) {
+  MapScore score({{20, 0, 0}, {0, 20, 0}, {0, 0, -20}}, Vector3d::Zero(), kToleranceM);
+  score.add(20.0, std::vector<Vector3d>{{20, 0, 0}, {0, 20, 0}}, {true, true, true});
+  for (const char* name : {"aligned_corners_found", "aligned_map_precision", "map_shift_m"}) {
+    EXPECT_TRUE(std::isnan(values(score).at(name))) << name;
+  }
+}
+
+TEST(MapScore, MetricsAreValidNamesForChecks) {
+  MapScore score({{100, 0, 0}}, Vector3d::Zero(), kToleranceM);
+  score.add(20.0, std::vector<Vector3d>{{100, 0, 0}}, {true});
+  const std::vector<std::string_view> names = judge_metrics();
+  for (const MetricValue& metric : score.metrics()) {
+    EXPECT_NE(std::ranges::find(names, metric.name), names.end()) << metric.name;
+  }
 }
 
 TEST(MapScore, RecordOfAModuleWithoutAMapStaysEmpty) {
