@@ -4,12 +4,7 @@ import csv
 
 import numpy as np
 
-
-def rotation(w, x, y, z):
-    """Returns the rotation matrix of a unit quaternion by its definition: v -> q v q*."""
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+from flown import rotation
 
 
 def pose(R, p):

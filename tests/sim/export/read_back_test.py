@@ -1,6 +1,6 @@
 """Reads exported data sets with NumPy and OpenCV only, and compares them with the flight.
 
-    read_back_test.py PROGRAM SOURCE_FOLDER
+    read_back_test.py PROGRAM
 """
 
 import csv
@@ -14,29 +14,15 @@ import unittest
 import cv2
 import numpy as np
 
-from euroc import START_NS, Euroc, pose, rotation
+from euroc import START_NS, Euroc, pose
+from flown import flown_pose, rotation
+from patches import offset_of_patch
+from tum import Tum
 
-PROGRAM, SOURCE = sys.argv[1:3]
+PROGRAM = sys.argv[1]
 GRAVITY = 9.81
 IMU_POSITION = np.array([0.10, 0.05, -0.02])  # forward, right, down of the mass center
-SCENARIO = f"""
-name: exported
-duration: 5
-scene: {{type: forest, trees: 60, spacing: 6, texture_size: 256, keep_clear: [{{north: 4, east: 4, radius: 14}}]}}
-vehicle: {{use: {SOURCE}/configs/vehicles/electric_helicopter_8kg.yaml}}
-avionics:
-  imu: {{rate: 250, cutoff: 200, gyro_noise: 0, accelerometer_noise: 0, misalignment: 0, position: [0.10, 0.05, -0.02]}}
-rig:
-  cameras:
-    - {{role: down, width: 160, height: 160, fov: 90, rate: 50, channel: grey, down: 0.25, pitch: -90}}
-  stereo:
-    - {{baseline: 0.4, width: 320, height: 240, fov: 70, rate: 10, channel: grey, forward: 0.3, pitch: -25, roll: 3,
-        imperfections: {{full_well: 20000, drop: 0.1}}}}
-start: {{north: 0, east: 0, altitude: 6, heading: 30}}
-goal: {{north: 30, east: 25, altitude: 8, radius: 2}}
-avoidance: {{module: go_to_goal, speed: 3}}
-drawing: {{renderer: tiles}}
-"""
+SCENARIO = pathlib.Path(__file__).with_name("exported.yaml")
 
 
 def hedgehop(*arguments):
@@ -48,9 +34,8 @@ class ReadBack(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        (cls.folder / "exported.yaml").write_text(SCENARIO)
         cls.run_folder = cls.folder / "run"
-        flown = hedgehop("run", cls.folder / "exported.yaml", "--out", cls.run_folder, "--no-video", "--no-report")
+        flown = hedgehop("run", SCENARIO, "--out", cls.run_folder, "--no-video", "--no-report")
         assert flown.returncode == 0, flown.stdout + flown.stderr
         for data_format, cameras in (("euroc", []), ("tum", ["left"]), ("kitti", ["left", "right"])):
             options = [word for camera in cameras for word in ("--camera", camera)]
@@ -58,6 +43,7 @@ class ReadBack(unittest.TestCase):
             assert done.returncode == 0, done.stderr
             assert "warning" not in done.stderr, done.stderr
         cls.euroc = Euroc(cls.run_folder / "euroc")
+        cls.tum = Tum(cls.run_folder / "tum")
         with open(cls.run_folder / "trajectory.csv") as file:
             cls.trajectory = list(csv.DictReader(file))
 
@@ -65,20 +51,9 @@ class ReadBack(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
-    def flown(self, row):
-        """Returns the poses of the IMU from the table of the run: F (forward, left, up) in E (east, north, up)."""
-        roll, pitch, heading = (float(row[k]) for k in ("roll_rad", "pitch_rad", "yaw_rad"))
-        turn_x = cv2.Rodrigues(np.array([roll, 0, 0]))[0]
-        turn_y = cv2.Rodrigues(np.array([0, pitch, 0]))[0]
-        turn_z = cv2.Rodrigues(np.array([0, 0, heading]))[0]
-        R_NB = turn_z @ turn_y @ turn_x
-        north, east, down = np.array([float(row[k]) for k in ("north_m", "east_m", "down_m")]) + R_NB @ IMU_POSITION
-        flu = np.array([R_NB[:, 0], -R_NB[:, 1], -R_NB[:, 2]]).T
-        return np.array([east, north, -down]), np.array([flu[1], flu[0], -flu[2]])
-
     def test_calibrations_read_back_to_the_last_digit(self):
         def kalibr(*options):
-            done = hedgehop("calibration", self.folder / "exported.yaml", "--format", "kalibr", *options)
+            done = hedgehop("calibration", SCENARIO, "--format", "kalibr", *options)
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stdout
 
@@ -99,7 +74,7 @@ class ReadBack(unittest.TestCase):
             if at == len(self.euroc.truth) or self.euroc.truth[at, 0] != t_ns:
                 continue
             p, R, _, _, _ = self.euroc.state(t_ns)
-            p_flown, R_flown = self.flown(row)
+            p_flown, R_flown = flown_pose(row, IMU_POSITION)
             np.testing.assert_allclose(p, p_flown, atol=1e-9)
             np.testing.assert_allclose(R, R_flown, atol=1e-9)
             compared += 1
@@ -155,34 +130,11 @@ class ReadBack(unittest.TestCase):
         exported = cv2.imread(str(self.euroc.images("cam1")[t_ns]), cv2.IMREAD_UNCHANGED)
         np.testing.assert_array_equal(exported, cv2.imread(str(drawn), cv2.IMREAD_UNCHANGED))
 
-    def tum(self):
-        root = self.run_folder / "tum"
-        rgb = dict(line.split() for line in (root / "rgb.txt").read_text().splitlines() if line[0] != "#")
-        depth = dict(line.split() for line in (root / "depth.txt").read_text().splitlines() if line[0] != "#")
-        file = cv2.FileStorage(str(root / "calibration.yaml"), cv2.FILE_STORAGE_READ)
-        truth = {line.split()[0]: np.array(line.split()[1:], float)
-                 for line in (root / "groundtruth.txt").read_text().splitlines() if line[0] != "#"}
-        return root, rgb, depth, file, truth
-
-    def points(self, t_text, most_m):
-        """Returns pixels of the left camera without an edge, and their positions in its frame."""
-        root, _, depth, file, _ = self.tum()
-        units = cv2.imread(str(root / depth[t_text]), cv2.IMREAD_UNCHANGED)
-        self.assertEqual(units.dtype, np.uint16)
-        z = units / file.getNode("depth_per_meter").real()
-        K = file.getNode("camera_matrix").mat()
-        z_far = np.where(z > 0, z, 1e3)
-        rough = cv2.dilate(z_far, np.ones((9, 9))) - cv2.erode(z_far, np.ones((9, 9)))
-        rows, cols = np.nonzero((z > 0) & (z < most_m) & (rough < 0.15 * z_far))
-        rays = np.linalg.inv(K) @ np.array([cols, rows, np.ones_like(rows)])
-        return rows, cols, (rays * z[rows, cols]).T
-
     def test_depth_and_pose_give_ground_at_height_zero(self):
-        _, rgb, _, _, truth = self.tum()
         heights = []
-        for t_text in list(rgb)[5:45:10]:
-            rows, _, points = self.points(t_text, 13.0)
-            x, y, z, qx, qy, qz, qw = truth[t_text]
+        for t_text in list(self.tum.images)[5:45:10]:
+            rows, _, points = self.tum.points(t_text, 13.0)
+            x, y, z, qx, qy, qz, qw = self.tum.truth[t_text]
             heights.append(((rotation(qw, qx, qy, qz) @ points.T).T + [x, y, z])[rows > 200, 2])
         heights = np.concatenate(heights)
         self.assertGreater(len(heights), 1000)
@@ -196,48 +148,22 @@ class ReadBack(unittest.TestCase):
         K_right, X_right = self.euroc.camera("cam2")
         X_right_left = np.linalg.inv(X_right) @ X_left
         left, right = self.euroc.images("cam1"), self.euroc.images("cam2")
-        _, rgb, _, _, _ = self.tum()
         random = np.random.default_rng(7)
         off = []
-        for t_text in list(rgb)[4:44:8]:
+        for t_text in list(self.tum.images)[4:44:8]:
             t_ns = int(t_text.replace(".", "")) - START_NS
             if t_ns not in right:
                 continue
             a, b = cv2.imread(str(left[t_ns]), 0), cv2.imread(str(right[t_ns]), 0)
-            rows, cols, points = self.points(t_text, 13.0)
+            rows, cols, points = self.tum.points(t_text, 13.0)
             seen = (K_right @ (X_right_left[:3, :3] @ points.T + X_right_left[:3, 3:])).T
             seen = seen[:, :2] / seen[:, 2:]
             for k in random.permutation(len(rows))[:60]:
-                off.extend(self.offset_of_patch(a, b, (rows[k], cols[k]), seen[k]))
+                off.extend(offset_of_patch(a, b, (rows[k], cols[k]), seen[k]))
         off = np.array(off)
         self.assertGreater(len(off), 60)
         self.assertLess(np.abs(np.median(off, axis=0)).max(), 0.05)
         self.assertGreater(np.mean(np.abs(off).max(axis=1) < 1.0), 0.8)
-
-    @staticmethod
-    def offset_of_patch(a, b, at, seen, half=6, reach=4):
-        """Returns the distance of a patch from its expected position; None for a cropped or flat patch."""
-        row, col = at
-        u, v = seen
-        u0, v0 = int(round(u)), int(round(v))
-        far = half + reach + 1
-        inside = min(row, col, u0, v0) >= far and max(row, v0) < a.shape[0] - far and max(col, u0) < a.shape[1] - far
-        if not inside:
-            return []
-        patch = a[row - half:row + half + 1, col - half:col + half + 1]
-        if patch.std() < 6:
-            return []
-        window = b[v0 - half - reach:v0 + half + reach + 1, u0 - half - reach:u0 + half + reach + 1]
-        score = cv2.matchTemplate(window, patch, cv2.TM_CCOEFF_NORMED)
-        _, best, _, (du, dv) = cv2.minMaxLoc(score)
-        if best < 0.8 or not (0 < du < 2 * reach and 0 < dv < 2 * reach):
-            return []
-
-        def peak(before, middle, after):
-            return 0.5 * (before - after) / (before - 2 * middle + after)
-
-        return [(u0 + du - reach + peak(*score[dv, du - 1:du + 2]) - u,
-                 v0 + dv - reach + peak(*score[dv - 1:dv + 2, du]) - v)]
 
     def test_kitti_has_the_same_poses_from_its_first_frame(self):
         root = self.run_folder / "kitti"

@@ -7,7 +7,6 @@ import pathlib
 import signal
 import subprocess
 import tempfile
-import textwrap
 import unittest
 
 import numpy as np
@@ -16,106 +15,7 @@ import hedgehop
 import hedgehop.testing
 from flights import CITY, PROGRAM, SHORT, SOURCE, STRAIGHT, TREE, run_program, steady
 
-GO_TO_GOAL = textwrap.dedent("""
-    import math
-    import os
-    import time
-
-    import hedgehop
-
-
-    class GoToGoal:
-        def __init__(self, speed=2.0, slow_radius=4.0):
-            self.speed, self.slow_radius = speed, slow_radius
-
-        def update(self, observation):
-            north, east, _ = observation.goal.p_WG_m - observation.navigation.p_WB_est_m
-            distance = math.sqrt(north * north + east * east)
-            speed = self.speed * (distance / self.slow_radius if distance < self.slow_radius else 1.0) / distance
-            return hedgehop.VelocityCommand([north * speed, east * speed], -observation.goal.p_WG_m[2],
-                                            observation.goal.heading_rad)
-
-
-    class Fails:
-        needs = ["front"]
-
-        def update(self, observation):
-            if observation.t_ns > 500_000_000:
-                raise ValueError("no\\nway")
-            return hedgehop.HoverCommand()
-
-
-    class Prints:
-        def update(self, observation):
-            print("seen", observation.t_ns)
-            return hedgehop.HoverCommand()
-
-
-    class ReturnsNone:
-        def update(self, observation):
-            pass
-
-
-    class TakesNoSetup(Prints):
-        def reset(self):
-            pass
-
-
-    class Sleeps(Prints):
-        def update(self, observation):
-            with open(os.environ["AWAKE"], "w") as awake:
-                awake.write("awake")
-            time.sleep(0.2)
-            return hedgehop.HoverCommand()
-
-
-    class NeedsAText(Prints):
-        needs = "front"
-
-
-    class NeedsWhatIsNotThere(Prints):
-        needs = ["forward", hedgehop.CameraNeed("front", "depth")]
-
-
-    class CommandsOfNoType(Prints):
-        commands = ["velocity", "thrust"]
-
-
-    class SignalsInAList(Prints):
-        signals = ["nearest"]
-
-
-    class MetricsInAText(Prints):
-        def metrics(self):
-            return "3 turns"
-
-
-    class AnnotatesANumber(Prints):
-        def annotate(self):
-            return 5
-
-
-    class Looks:
-        needs = [hedgehop.CameraNeed("front")]
-        signals = {"mean_grey": "", "first_comes_last": ""}
-
-        def reset(self, setup):
-            self.setup, self.images = setup, 0
-            self.band = setup.altitude_band_m or (math.inf, math.inf)
-
-        def update(self, observation):
-            self.images += 1
-            image = observation.images.get("front")
-            mean = math.nan if image is None else float(image.mean())
-            return hedgehop.Decision(hedgehop.HoverCommand(), "look", [mean, -1.0])
-
-        def metrics(self):
-            return {"images": self.images, "lowest_m": min(self.band[0], 999.0), "highest_m": min(self.band[1], 999.0)}
-
-        def annotate(self):
-            import numpy
-            return numpy.full((48, 64, 3), 200, numpy.uint8)
-    """)
+MODULES = pathlib.Path(__file__).with_name("modules_in_a_file.py").read_text()
 
 
 class FromFile(unittest.TestCase):
@@ -124,7 +24,7 @@ class FromFile(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.scratch.name)
         cls.file = cls.folder / "mine.py"
-        cls.file.write_text(GO_TO_GOAL)
+        cls.file.write_text(MODULES)
 
     @classmethod
     def tearDownClass(cls):
@@ -140,7 +40,7 @@ class FromFile(unittest.TestCase):
         self.assertEqual((result or {}).get("trajectory_hash"), expected, said)
         self.assertEqual(hedgehop.Simulation(CITY, set=values).run()["trajectory_hash"], expected)
         names = {}
-        exec(GO_TO_GOAL, names)
+        exec(MODULES, names)
         self.assertEqual(hedgehop.Simulation(CITY, set=STRAIGHT, module=names["GoToGoal"](speed=3.0)).run()["trajectory_hash"], expected)
         self.assertIn("mine.py", " ".join(result["inputs"]))
 
@@ -160,7 +60,7 @@ class FromFile(unittest.TestCase):
     def test_an_exception_of_a_module_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
         self.assertEqual(result["outcome"], "fault")
-        for text in ("0.520 s", "ValueError: no way", f"{self.file}:26 in update"):
+        for text in ("0.520 s", "ValueError: no way", f"{self.file}:27 in update"):
             self.assertIn(text, result["cause"])
         self.assertNotIn("\n", result["cause"])
 

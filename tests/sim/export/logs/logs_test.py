@@ -17,31 +17,13 @@ import cv2
 import numpy as np
 import yaml
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from flown import flown_pose, rotation  # noqa: E402
+
 PROGRAM, SOURCE, NODE, READERS = sys.argv[1:5]
 START_NS = 1_600_000_000_000_000_000  # of ROS times
 IMU_POSITION = np.array([0.10, 0.05, -0.02])  # forward, right, down of the mass center
-SCENARIO = f"""
-name: logged
-duration: 3
-scene: {{type: forest, trees: 30, spacing: 6, texture_size: 64, keep_clear: [{{north: 4, east: 4, radius: 14}}],
-        movers: [{{name: balloon, shape: balloon, motion: {{type: waypoints, speed: 1,
-                   points: [{{north: 12, east: 12, altitude: 4}}, {{north: 20, east: 12, altitude: 4}}]}}}}]}}
-vehicle: {{use: {SOURCE}/configs/vehicles/electric_helicopter_8kg.yaml}}
-avionics: {{imu: {{rate: 250, position: [0.10, 0.05, -0.02]}}}}
-rig:
-  cameras:
-    - {{role: belly, width: 64, height: 48, fov: 90, rate: 20, channel: color, down: 0.25, pitch: -90}}
-    - {{role: dome, model: fisheye, width: 64, height: 64, fov: 180, rate: 10, channel: grey, pitch: 90}}
-    - {{role: range, width: 64, height: 48, fov: 70, rate: 10, channel: depth, forward: 0.3}}
-  stereo:
-    - {{baseline: 0.3, width: 160, height: 120, fov: 70, rate: 10, channel: grey, forward: 0.3}}
-velocimeter: {{enabled: false}}
-start: {{north: 0, east: 0, altitude: 4, heading: 30}}
-goal: {{north: 30, east: 25, altitude: 5, radius: 2}}
-failures: [{{what: gps, at: 1, until: 1.5, mode: "off"}}]
-avoidance: {{module: go_to_goal, speed: 3}}
-drawing: {{renderer: tiles}}
-"""
+SCENARIO = pathlib.Path(__file__).with_name("logged.yaml")
 
 
 def run(*words):
@@ -58,22 +40,13 @@ def read(script, file):
     return json.loads(done.stdout)
 
 
-def rotation(q):
-    w, x, y, z = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
-
-
 class Logs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        cls.scenario = cls.folder / "logged.yaml"
-        cls.scenario.write_text(SCENARIO)
         cls.run_folder = cls.folder / "run"
-        flown = hedgehop("run", cls.scenario, "--out", cls.run_folder, "--no-video", "--no-report")
+        flown = hedgehop("run", SCENARIO, "--out", cls.run_folder, "--no-video", "--no-report")
         assert flown.returncode in (0, 1), flown.stdout + flown.stderr
         for name, options in (("mcap", ["--truth"]), ("rosbag2", []), ("ulog", [])):
             done = hedgehop("export", cls.run_folder, "--format", name, *options)
@@ -96,23 +69,14 @@ class Logs(unittest.TestCase):
         self.assertIn(topic, log["topics"])
         return log["topics"][topic]["messages"]
 
-    def flown(self, row, prefix=""):
-        """Returns the position of the IMU and its axes (forward, left, up) in east, north, up."""
-        roll, pitch, heading = (float(row[prefix + k]) for k in ("roll_rad", "pitch_rad", "yaw_rad"))
-        turns = [cv2.Rodrigues(np.array(v))[0] for v in ([roll, 0, 0], [0, pitch, 0], [0, 0, heading])]
-        R = turns[2] @ turns[1] @ turns[0]
-        p = np.array([float(row[prefix + k]) for k in ("north_m", "east_m", "down_m")]) + R @ IMU_POSITION
-        flu = np.array([R[:, 0], -R[:, 1], -R[:, 2]]).T
-        return np.array([p[1], p[0], -p[2]]), np.array([flu[1], flu[0], -flu[2]])
-
     def assert_poses(self, poses, prefix):
         """poses: (t_ns, position, quaternion w x y z)"""
         self.assertEqual(len(poses), len(self.trajectory))
         for (t_ns, p, q), row in zip(poses, self.trajectory):
             self.assertEqual(t_ns, round(float(row["t_s"]) * 1e9))
-            p_flown, R_flown = self.flown(row, prefix)
+            p_flown, R_flown = flown_pose(row, IMU_POSITION, prefix)
             np.testing.assert_allclose(p, p_flown, atol=1e-9)
-            np.testing.assert_allclose(rotation(q), R_flown, atol=1e-9)
+            np.testing.assert_allclose(rotation(*q), R_flown, atol=1e-9)
 
     @staticmethod
     def pose_of(t_ns, position, orientation):
@@ -124,7 +88,7 @@ class Logs(unittest.TestCase):
     def rendered(self, camera, t_s):
         file = self.folder / "rendered.png"
         what = "color" if camera == "belly" else "grey"
-        done = hedgehop("render", self.scenario, "--camera", camera, "--time", t_s, "--what", what, "-o", file)
+        done = hedgehop("render", SCENARIO, "--camera", camera, "--time", t_s, "--what", what, "-o", file)
         self.assertEqual(done.returncode, 0, done.stderr)
         return cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
 
@@ -246,7 +210,7 @@ class Logs(unittest.TestCase):
             self.assert_poses(poses, prefix)
         truth = self.messages(self.bag, "/ground_truth/odom")
         p = np.array([[m["pose"]["pose"]["position"][k] for k in "xyz"] for _, m in truth])
-        v = np.array([rotation([m["pose"]["pose"]["orientation"][k] for k in "wxyz"]) @
+        v = np.array([rotation(*[m["pose"]["pose"]["orientation"][k] for k in "wxyz"]) @
                       [m["twist"]["twist"]["linear"][k] for k in "xyz"] for _, m in truth])
         self.assertLess(np.abs((p[2:] - p[:-2]) / 0.02 - v[1:-1]).max(), 0.02)
 
@@ -321,8 +285,9 @@ class Logs(unittest.TestCase):
 
     def test_bad_requests_leave_no_folder(self):
         bad = self.folder / "bad.yaml"
-        bad.write_text(SCENARIO.replace("role: belly", 'role: "down looking"'))
-        cases = ((bad, "--camera", "down looking"), (self.scenario, "--camera", "up"))
+        bad.write_text(SCENARIO.read_text().replace("../../../../configs", f"{SOURCE}/configs")
+                       .replace("role: belly", 'role: "down looking"'))
+        cases = ((bad, "--camera", "down looking"), (SCENARIO, "--camera", "up"))
         for scenario, *options in cases:
             out = self.folder / "refused"
             done = hedgehop("export", scenario, "--format", "rosbag2", "--out", out, *options)
