@@ -33,6 +33,10 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
   }
   if (scenario_file.empty())
     throw InputError(fmt::format("{}: its result.json names no scenario file", run_folder.string()));
+  if (!std::filesystem::exists(scenario_file)) {  // relative to the folder from which the flight was started
+    throw InputError(
+        fmt::format("{}: no such scenario here; call bless in the folder in which run was called", scenario_file));
+  }
   return std::filesystem::path(scenario_file).replace_extension("reference.csv");
 }
 

@@ -51,6 +51,17 @@ TEST(Bless, RejectsAFailedFlight) {
   EXPECT_EQ(folder.hedgehop("bless slow --reason 'near enough' --force").status, 0);
 }
 
+// As in another folder than that of the run.
+TEST(Bless, RejectsARunWhoseScenarioIsNotThere) {
+  const CampaignFolder folder;
+  ASSERT_EQ(folder.hedgehop("run tiny.yaml --seed 3 --no-report --no-video --out first").status, 0);
+  std::filesystem::rename(folder.path() / "tiny.yaml", folder.path() / "moved.yaml");
+  const CommandEnd end = folder.hedgehop("bless first --reason one");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err,
+              HasSubstr("tiny.yaml: no such scenario here; call bless in the folder in which run was called\n"));
+}
+
 TEST(Bless, MissingReferenceIsRefusedBeforeTheFlight) {
   const CampaignFolder folder;
   folder.write("held.yaml", "use: tiny.yaml\nchecks:\n  - {check: path_tolerance, reference: none.csv, at_most: 1}\n");
