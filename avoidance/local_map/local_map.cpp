@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "avoidance/dead_reckoning.h"
 #include "avoidance/heading.h"
 #include "avoidance/local_map/altitude_levels.h"
-#include "avoidance/local_map/dead_reckoning.h"
 #include "avoidance/local_map/hull_clearance.h"
 #include "avoidance/local_map/kept_margin.h"
 #include "avoidance/local_map/local_map_overlay.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <random>
@@ -43,6 +44,7 @@ class CornerFlight {
 
   Decision step(std::optional<double> range_m = std::nullopt) {
     NavigationState navigation = level_flight(p_WB_, heading_rad_, v_W_);
+    navigation.p_WB_est.y() += east_error_m(1e-9 * static_cast<double>(t_ns_));
     navigation.range_m = range_m;
     t_ns_ += kStepNs;
     const std::vector<CameraFrame> frames = {{"front", t_ns_, seen()}};
@@ -60,6 +62,7 @@ class CornerFlight {
   bool arrived() const { return (goal_W - p_WB_).norm() < 3.0; }
 
   Eigen::Vector3d goal_W{120.0, 0.0, -kHeightM};
+  std::function<double(double t_s)> east_error_m = [](double) { return 0.0; };  ///< of the estimated position
 
  private:
   static constexpr double kTurnRadps = 0.8;
@@ -149,6 +152,26 @@ TEST(LandmarkMapModule, TreatsASingleCornerAsTheEndOfAFacade) {
     EXPECT_TRUE(flight.arrived()) << aside_m;
     EXPECT_GT(least_m, kHalfFaceM + LandmarkMapModuleConfig{}.clearance_m - kOfTheMapM) << aside_m;
   }
+}
+
+// The position wanders by 1.5 m in a minute. Of a first-order low pass with 20 s remains 1.5 m / sqrt(1 + (2 pi /
+// 3)^2), after a start that adds up to 0.2 m.
+TEST(LandmarkMapModule, FollowsTheVelocityMoreThanAWanderingPosition) {
+  constexpr double kWanderM = 1.5, kStartM = 0.2;
+  const auto max_off_m = [&](Law law) {
+    LandmarkMapModuleConfig config;
+    config.law = law;
+    CornerFlight flight({}, config);
+    flight.east_error_m = [&](double t_s) { return kWanderM * std::sin(2.0 * M_PI * t_s / 60.0); };
+    double max_m = 0.0;
+    for (int i = 0; i < 600 && !flight.arrived(); ++i) {
+      flight.step();
+      max_m = std::max(max_m, std::abs(flight.p_WB().y()));
+    }
+    return max_m;
+  };
+  EXPECT_LT(max_off_m(Law::modified), kWanderM / std::hypot(1.0, 2.0 * M_PI / 3.0) + kStartM);
+  EXPECT_GT(max_off_m(Law::published), 0.8 * kWanderM);
 }
 
 TEST(LandmarkMapModule, StopsPermanentlyAfterSixSuccessiveRangeAlarms) {

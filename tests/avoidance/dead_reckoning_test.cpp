@@ -1,10 +1,10 @@
-#include "avoidance/local_map/dead_reckoning.h"
+#include "avoidance/dead_reckoning.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace hedgehop::avoidance::local_map {
+namespace hedgehop::avoidance {
 namespace {
 
 // A circle with the nose ahead, while the estimated position wanders by a meter. The result equals the closed form.
@@ -26,5 +26,19 @@ TEST(DeadReckoning, FollowsTheVelocityWhileThePositionWanders) {
   }
 }
 
+// The estimated position jumps by a meter in hover. The first-order closed form is exp(-t / T) of the jump.
+TEST(DeadReckoning, ConvergesToTheEstimateWithItsTimeConstant) {
+  constexpr double kConvergeS = 20.0, kStepS = 0.1;
+  DeadReckoning reckoning(kConvergeS);
+  NavigationState navigation;
+  reckoning.update(navigation, 0.0);
+  navigation.p_WB_est.y() = 1.0;
+  for (int i = 1; i <= 600; ++i) {
+    const double t_s = i * kStepS;
+    const double east_m = reckoning.update(navigation, t_s).p_WB_est.y();
+    ASSERT_NEAR(east_m, 1.0 - std::exp(-t_s / kConvergeS), 1e-12) << t_s;
+  }
+}
+
 }  // namespace
-}  // namespace hedgehop::avoidance::local_map
+}  // namespace hedgehop::avoidance
