@@ -13,6 +13,7 @@
 #include "avoidance/local_map/local_map_overlay.h"
 #include "avoidance/local_map/nose_in_view.h"
 #include "avoidance/local_map/route_field.h"
+#include "avoidance/local_map/status_count.h"
 #include "avoidance/local_map/stop_planner.h"
 #include "avoidance/local_map/surroundings.h"
 #include "avoidance/local_map/unknown_target.h"
@@ -69,7 +70,7 @@ class LocalMap final : public Module {
     progress_.reset();
     waits_.reset();
     weave_ = {};
-    stops_ = stuck_ = decisions_ = 0;
+    statuses_ = {};
   }
 
   Decision do_update(const Observation& observation) override {
@@ -88,7 +89,6 @@ class LocalMap final : public Module {
     }
     around_->see(reckoned.navigation, t_s);
     last_ = decide(reckoned, observation.goal.p_WG, t_s);
-    ++decisions_;
     return *last_;
   }
 
@@ -142,16 +142,12 @@ class LocalMap final : public Module {
     command.heading_rad = last_nose_rad_;
     decision.command = command;
     const double margin_m = slice().to_occupied_m(p_W) - clearance_.hull_m;
-    decision.status = arrived                            ? "arrive"
-                      : kept_margin_.is_missed(margin_m) ? "close"
-                      : !plan_.safe                      ? "brake"
-                      : kept_margin_.is_narrow()         ? "narrow"
-                      : around_->changes_height()        ? "level"
-                      : !goes_on                         ? "stuck"
-                      : unknown_target_.place_W()        ? "look"
-                                                         : "cruise";
-    stuck_ += !goes_on;
-    stops_ += !plan_.safe;
+    decision.status = statuses_.add({.arrived = arrived,
+                                     .safe = plan_.safe,
+                                     .changes_height = around_->changes_height(),
+                                     .goes_on = goes_on,
+                                     .looks = unknown_target_.place_W().has_value()},
+                                    kept_margin_, margin_m);
     kept_margin_.count(margin_m);
     decision.signals = {route_m.value_or(std::nan("")),
                         (plan_.path.back().p_W - p_W).norm(),
@@ -252,17 +248,7 @@ class LocalMap final : public Module {
     return azimuth_rad(p_W, unknown_target_.place_W().value_or(route_.route_W(p_W, kAheadM).back()), heading);
   }
 
-  std::vector<Metric> do_metrics() const override {
-    const double n = std::max<double>(1.0, static_cast<double>(decisions_));
-    std::vector<Metric> metrics = {{"brake_share", static_cast<double>(stops_) / n, ""},
-                                   {"stuck_share", static_cast<double>(stuck_) / n, ""}};
-    if (kept_margin_.is_kept() && decisions_ > 0) {
-      metrics.push_back({"narrow_share", static_cast<double>(kept_margin_.narrow_decisions()) / n, ""});
-      metrics.push_back({"close_share", static_cast<double>(kept_margin_.missed_decisions()) / n, ""});
-      metrics.push_back({"map_margin", kept_margin_.least_m(), "m"});
-    }
-    return metrics;
-  }
+  std::vector<Metric> do_metrics() const override { return statuses_.metrics(kept_margin_); }
 
   cv::Mat do_annotate() const override {
     if (!last_) return {};
@@ -292,7 +278,7 @@ class LocalMap final : public Module {
   ConditionTimer waits_;
   Weave weave_;  ///< for depth from motion
   std::optional<Decision> last_;
-  int64_t stops_ = 0, stuck_ = 0, decisions_ = 0;
+  StatusCount statuses_;
 };
 
 }  // namespace
