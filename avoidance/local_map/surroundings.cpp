@@ -7,6 +7,7 @@
 
 #include "avoidance/heading.h"
 #include "vision/mapping/depth_blocks.h"
+#include "vision/mapping/find_plain.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {
@@ -139,8 +140,9 @@ void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation
   if (matches) vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
   pair.blocks.build(source.disparity16(), source.grey(), half_window_px(config_), source.sigma16());
   const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
-  if (config_.sky && !source.grey().empty() && down_C.y() > kUpright) {
-    vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
+  if (!source.grey().empty() && down_C.y() > kUpright) {
+    if (config_.sky) vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
+    vision::mapping::find_plain(source.geometry(), down_C, source.disparity16(), source.grey(), pair.blocks);
   }
   map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
   // Depth from motion assumes that the world does not move.

@@ -17,15 +17,18 @@ struct DepthBlock {
     smeared,  ///< matched, but so close to an untextured area that the disparity may belong to another surface
     sky,      ///< unmatched or smeared, and recognized by find_sky()
     line,     ///< sky with a thin dark object of unknown distance in it
+    plain,    ///< unmatched, and recognized by find_plain() as a plain surface on the ground, or as farther
   };
   Kind kind = Kind::unknown;
   int16_t near16 = -1;  ///< disparity x 16 of its nearest surface; -1 if no pixels are matched
   int16_t sigma16 =
       -1;  ///< mean 1-sigma error of the disparity x 16; -1 if all pixels have the same, which is not given
-  int16_t foot16 = -1;  ///< of sky and line: disparity x 16 of a vertical surface at the end of the column's ground
-  uint8_t grey = 0;     ///< mean
+  int16_t foot16 =
+      -1;            ///< of sky, line and plain: disparity x 16 of a vertical surface at the end of the column's ground
+  uint8_t grey = 0;  ///< mean
   uint8_t range = 0;    ///< range of the mean grey of its four quarters
   bool lined = false;   ///< contains a thin object darker than both sides
+  bool stands = false;  ///< of plain: whether a surface at foot16 is likely
 };
 
 /// A disparity image in square blocks, each with its nearest surface. This gives a few thousand rays instead of a

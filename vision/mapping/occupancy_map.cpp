@@ -143,12 +143,17 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
       const DepthBlock& block = blocks.at(row, col);
       float& clear_m = clear_m_[static_cast<size_t>(row * blocks.cols() + col)];
       if (block.kind == DepthBlock::Kind::line) clear_m = kInDoubt;
-      if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky) continue;
+      if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky &&
+          block.kind != DepthBlock::Kind::plain) {
+        continue;
+      }
       double near16 = block.foot16 < 0 ? -1.0 : block.foot16 + kSigmas * config_.noise_px * stereo::kDisparityUnits;
       for (int v = std::max(0, row - 1); v <= std::min(blocks.rows() - 1, row + 1); ++v) {
         for (int u = std::max(0, col - 1); u <= std::min(blocks.cols() - 1, col + 1); ++u) {
           const DepthBlock& other = blocks.at(v, u);
-          if (other.near16 >= 0) near16 = std::max(near16, other.near16 + beyond16(other));
+          const int other16 =
+              other.kind == DepthBlock::Kind::plain ? std::max(other.near16, other.foot16) : other.near16;
+          if (other16 >= 0) near16 = std::max(near16, other16 + beyond16(other));
         }
       }
       double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / near16;
@@ -170,17 +175,18 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
-      if (block.near16 <= 0 || block.near16 < min_disparity16(block, kReportedM)) continue;
+      const bool assumed = block.stands && block.near16 < 0;  // a surface without a match
+      const int near16 = assumed ? block.foot16 : block.near16;
+      if (near16 <= 0 || near16 < min_disparity16(block, kReportedM)) continue;
       const cv::Point middle(col * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2,
                              row * DepthBlocks::kBlockPx + DepthBlocks::kBlockPx / 2);
-      const Eigen::Vector3d p_W =
-          X_WC * Eigen::Vector3d(geometry.z_m(block.near16) * geometry.ray_at_unit_depth(middle));
+      const Eigen::Vector3d p_W = X_WC * Eigen::Vector3d(geometry.z_m(near16) * geometry.ray_at_unit_depth(middle));
       const Index voxel = index(p_W);
       if (!contains(voxel)) continue;
       const size_t at = slot(voxel);
       if (hit_[at]) continue;
-      hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
-      if (block.near16 < min_disparity16(block, kPlacedM)) continue;
+      if (!assumed) hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
+      if (near16 < min_disparity16(block, kPlacedM)) continue;
       const auto holds = [&](const MovingDisc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
       if (std::ranges::any_of(moving, holds)) continue;
       hit_[at] = 1;
