@@ -142,7 +142,10 @@ void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation
   const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
   if (!source.grey().empty() && down_C.y() > kUpright) {
     if (config_.sky) vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
-    vision::mapping::find_plain(source.geometry(), down_C, source.disparity16(), source.grey(), pair.blocks);
+    // Depth from motion has another error at every pixel, which the fit of the ground ignores.
+    if (config_.depth == DisparitySource::From::stereo) {
+      vision::mapping::find_plain(source.geometry(), down_C, source.disparity16(), source.grey(), pair.blocks);
+    }
   }
   map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
   // Depth from motion assumes that the world does not move.
