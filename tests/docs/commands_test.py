@@ -63,6 +63,7 @@ def shortened_file(text):
     text = re.sub(r"\bduration=[0-9.]+", f"duration={SHORT_S}", text)
     text = re.sub(r"\bat: [0-9.]+, until: [0-9.]+", f"at: {SHORT_S / 4}, until: {SHORT_S / 2}", text)
     text = re.sub(r"points: [0-9]+", "points: 2", text)
+    text = re.sub(r", shrinking: [0-9]+", "", text)
     text = re.sub(r"budget: [0-9]+", "budget: 2, shrinking: 2", text)
     if re.search(r"^duration:", text, re.M) and not re.search(r"^drawing:", text, re.M):
         text += "\ndrawing: {renderer: tiles}\n"  # the fastest renderer
