@@ -13,6 +13,7 @@
 #include "sim/config/include.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/conduct.h"
+#include "sim/falsify/falsify_file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/sweep/sweep_file.h"
 
@@ -29,6 +30,13 @@ bool is_sweep(const std::filesystem::path& file) {
   ErrorList errors("file");
   const Node root = load_tree(file, errors);
   return root.find("parameters") && root.find("scenario");
+}
+
+bool is_search(const std::filesystem::path& file) {
+  ErrorList errors("file");
+  const Node root = load_tree(file, errors);
+  const Node* const design = root.find("design");
+  return design && design->find("budget");
 }
 
 bool is_plan(const std::filesystem::path& file) {
@@ -86,6 +94,10 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
 
 ValidFile read_valid(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   if (is_plan(file)) return read_plan(file, overrides);
+  if (is_search(file)) {
+    const FalsifySearch search = read_falsify(file, overrides);
+    return {fmt::format("search of {} flights of {}", search.config.design.budget, search.config.scenario), {}};
+  }
   if (!is_sweep(file)) return read_flights_of(file, overrides);
   const SweepConfig sweep = read_sweep(file, overrides);
   return {fmt::format("sweep of {} parameters of {}", sweep.parameters.size(), sweep.scenario), {}};

@@ -99,6 +99,13 @@ class Validate(Program):
         self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
         self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
 
+    def test_a_search_is_validated_as_a_search(self):
+        search = SWEEP.partition("parameters:")[0] + "design: {budget: 4}\nparameters: [{path: avoidance.speed, from: 1, to: 2}]\n"
+        self.write("search.yaml", search)
+        self.assertIn("search of 4 flights of ", self.hedgehop("validate search.yaml").stdout)
+        self.write("search.yaml", search.replace("speed", "sped"))
+        self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate search.yaml", status=2).stderr)
+
 
 def has_osmesa():
     try:
