@@ -226,7 +226,10 @@ class Gatherer {
   void refuse(Order& order, const InputError& error) {
     order.fault = error.errors().front();
     order.more_faults.assign(error.errors().begin() + 1, error.errors().end());
-    batch_.faults.insert(batch_.faults.end(), error.errors().begin(), error.errors().end());
+    for (const std::string& fault : error.errors()) {
+      // An override that no scenario accepts is one fault, not one per scenario.
+      if (std::ranges::find(batch_.faults, fault) == batch_.faults.end()) batch_.faults.push_back(fault);
+    }
     add(order);
   }
 

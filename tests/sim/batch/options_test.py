@@ -99,6 +99,10 @@ class Validate(Program):
         self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
         self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
 
+    def test_an_override_that_no_scenario_accepts_is_one_line(self):
+        end = self.hedgehop("batch scenarios --recursive --set leaderboard.seeds=1:2 --out out", status=2)
+        self.assertEqual(end.stderr.count("unknown key 'leaderboard'"), 1, end.stderr)
+
     def test_a_search_is_validated_as_a_search(self):
         search = SWEEP.partition("parameters:")[0] + "design: {budget: 4}\nparameters: [{path: avoidance.speed, from: 1, to: 2}]\n"
         self.write("search.yaml", search)
