@@ -112,11 +112,12 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
 }
 
 void declare_validate(CLI::App& app, std::function<int()>& chosen) {
-  CLI::App* const command = app.add_subcommand(
-      "validate",
-      "check scenarios, campaigns, sweeps, searches and plans without flying; exit status 2 if a file is invalid");
+  CLI::App* const command = app.add_subcommand("validate",
+                                               "check scenarios, campaigns, sweeps, searches, papers and plans without "
+                                               "flying; exit status 2 if a file is invalid");
   const auto options = std::make_shared<ValidateOptions>();
-  command->add_option("FILES", options->inputs, "scenarios, campaigns, sweeps, searches, plans or folders")->required();
+  command->add_option("FILES", options->inputs, "scenarios, campaigns, sweeps, searches, papers, plans or folders")
+      ->required();
   command->add_flag("--recursive", options->recursive, "also read the subfolders of folders");
   add_overrides(*command, options->overrides, "override a value of every scenario; may be repeated");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");

@@ -14,6 +14,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
+#include "sim/reproduce/paper.h"
 #include "sim/simulation/simulation.h"
 #include "sim/sweep/sweep_file.h"
 
@@ -25,6 +26,10 @@ struct ValidFile {
   std::string words;
   std::set<std::filesystem::path> used;
 };
+
+std::string counted(size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
 
 bool is_sweep(const std::filesystem::path& file) {
   ErrorList errors("file");
@@ -39,6 +44,12 @@ bool is_search(const std::filesystem::path& file) {
   return design && design->find("budget");
 }
 
+bool is_paper(const std::filesystem::path& file) {
+  ErrorList errors("file");
+  const Node root = load_tree(file, errors);
+  return root.find("rows") && root.find("flights");
+}
+
 bool is_plan(const std::filesystem::path& file) {
   ErrorList errors("file");
   const Node root = load_tree(file, errors);
@@ -49,7 +60,7 @@ bool is_plan(const std::filesystem::path& file) {
 ValidFile read_plan(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const Registration plan = read_registration(file);
   const std::vector<RegisteredFlights>& all = plan.config.flights;
-  ValidFile valid{.words = fmt::format("plan of {} scenario{}", all.size(), all.size() == 1 ? "" : "s"), .used = {}};
+  ValidFile valid{.words = "plan of " + counted(all.size(), "scenario"), .used = {}};
   for (const RegisteredFlights& flights : all) {
     const LoadedScenario loaded = load_flight(flights.scenario, overrides);
     const std::string found = scenario_sha256(loaded.scenario, std::filesystem::path(flights.scenario).parent_path());
@@ -86,21 +97,22 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
       valid.used.insert(std::filesystem::weakly_canonical(order.scenario.parent_path() / input, error));
     }
   }
-  valid.words = batch.orders.size() == 1
-                    ? fmt::format("scenario {}", batch.orders.front().group)
-                    : fmt::format("{} flights of {} scenarios", batch.orders.size(), groups.size());
+  valid.words = batch.orders.size() == 1 ? fmt::format("scenario {}", batch.orders.front().group)
+                                         : fmt::format("{} of {}", counted(batch.orders.size(), "flight"),
+                                                       counted(groups.size(), "scenario"));
   return valid;
 }
 
 ValidFile read_valid(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   if (is_plan(file)) return read_plan(file, overrides);
+  if (is_paper(file)) return {fmt::format("paper with {}", counted(read_paper(file).rows.size(), "claim")), {}};
   if (is_search(file)) {
     const FalsifySearch search = read_falsify(file, overrides);
     return {fmt::format("search of {} flights of {}", search.config.design.budget, search.config.scenario), {}};
   }
   if (!is_sweep(file)) return read_flights_of(file, overrides);
   const SweepConfig sweep = read_sweep(file, overrides);
-  return {fmt::format("sweep of {} parameters of {}", sweep.parameters.size(), sweep.scenario), {}};
+  return {fmt::format("sweep of {} of {}", counted(sweep.parameters.size(), "parameter"), sweep.scenario), {}};
 }
 
 /// Checks files one after the other.

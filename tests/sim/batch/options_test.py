@@ -99,6 +99,14 @@ class Validate(Program):
         self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
         self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
 
+    def test_a_paper_is_validated_as_a_paper(self):
+        paper = ("title: T\nsource: S\ntuned_on: none\nflights: [{scenario: scenarios/a.yaml, seeds: 1:2}]\n"
+                 "rows: [{claim: c, flights: [a], column: outcome, is: reached, statistic: count}]\n")
+        self.write("paper.yaml", paper)
+        self.assertIn("paper with 1 claim", self.hedgehop("validate paper.yaml").stdout)
+        self.write("paper.yaml", paper.replace("statistic: count", "statistic: cuont"))
+        self.assertIn("paper.yaml:5:", self.hedgehop("validate paper.yaml", status=2).stderr)
+
     def test_an_override_that_no_scenario_accepts_is_one_line(self):
         end = self.hedgehop("batch scenarios --recursive --set leaderboard.seeds=1:2 --out out", status=2)
         self.assertEqual(end.stderr.count("unknown key 'leaderboard'"), 1, end.stderr)
