@@ -72,10 +72,24 @@ std::vector<HullDiscs::Disc> sweep(const HullDiscs& hull_discs, double from_rad,
   return swept;
 }
 
+void HullClearance::keep_from_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W, double margin_m,
+                                      double half_view_rad) {
+  unknown_margin_ = {};
+  if (margin_m <= 0.0) return;
+  double now_m = margin_m;
+  for (const HullDiscs::Disc& disc : swept_) {
+    now_m = std::min(now_m, slice.to_unknown_m(p_W + disc.p_H) - disc.radius_m - 0.5 * slice.cell_m());
+  }
+  const double wide_m = clearance_.hull_m + margin_m + slice.cell_m();
+  unknown_margin_ = {p_W, wide_m / std::sin(half_view_rad), std::max(now_m, 0.0), margin_m};
+}
+
 ClearanceDeficit HullClearance::deficit(const LevelSlice& slice, const PathState& state, bool unknown_too) const {
   const double margin_m = clearance_.margin_m + clearance_.margin_s * state.v_W.norm();
   const double unsure_m = kUnsureS * state.v_W.norm();
   const bool close_by = clearance_.margin_m <= 0.5 * slice.cell_m();  // below the error of a look-up
+  const bool is_far = (state.p_W - unknown_margin_.from_W).norm() > unknown_margin_.beyond_m;
+  const double from_unknown_m = is_far ? unknown_margin_.far_m : unknown_margin_.near_m;
   ClearanceDeficit worst;
   for (const HullDiscs::Disc& disc : swept_) {
     const Eigen::Vector2d p_W = state.p_W + disc.p_H;
@@ -83,7 +97,7 @@ ClearanceDeficit HullClearance::deficit(const LevelSlice& slice, const PathState
     const double away_m = close_by ? slice.exactly_to_occupied_m(p_W, keeps_m) : slice.to_occupied_m(p_W);
     worst.occupied_m = std::max(worst.occupied_m, keeps_m - away_m);
     if (!unknown_too) continue;
-    worst.unknown_m = std::max(worst.unknown_m, disc.radius_m - slice.to_unknown_m(p_W));
+    worst.unknown_m = std::max(worst.unknown_m, disc.radius_m + from_unknown_m - slice.to_unknown_m(p_W));
     worst.beside_unknown_m = std::max(worst.beside_unknown_m, disc.radius_m + unsure_m - slice.to_unknown_m(p_W));
   }
   return worst;

@@ -50,6 +50,12 @@ class HullClearance {
   /// Sets the headings of a turn along the shorter arc. The progress of the turn along the path is unknown, so every
   /// state of the path is tested with all of them.
   void set_turn(double from_rad, double to_rad) { swept_ = sweep(hull_discs_, from_rad, to_rad, step_m_); }
+  /// Sets a margin that is also kept from unknown space, because an obstacle may begin there. Images show this margin
+  /// around positions beyond the distance at which the view is wide enough. Nearer positions keep the current distance
+  /// from unknown space, if it is less. Requires set_turn().
+  /// @param p_W  position of the vehicle. @param margin_m  around the hull, >= 0; 0: the hull itself is sufficient.
+  /// @param half_view_rad  angle from the center of the images to their sides, > 0.
+  void keep_from_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W, double margin_m, double half_view_rad);
 
   /// Returns the missing distance of a state from obstacles and, if requested, from unknown space.
   ClearanceDeficit deficit(const LevelSlice& slice, const PathState& state, bool unknown_too) const;
@@ -64,6 +70,10 @@ class HullClearance {
   Clearance clearance_;
   double step_m_ = 0.3;
   std::vector<HullDiscs::Disc> swept_;
+  struct UnknownMargin {
+    Eigen::Vector2d from_W = Eigen::Vector2d::Zero();  ///< position of the vehicle
+    double beyond_m = 0.0, near_m = 0.0, far_m = 0.0;  ///< far_m is kept beyond a distance from it, else near_m
+  } unknown_margin_;
 };
 
 }  // namespace hedgehop::avoidance::local_map

@@ -51,9 +51,9 @@ class LocalMap final : public Module {
     clearance_ = {limits.radius_m, kept_margin_.planned_m(), config_.margin_time_s};
     hull_discs_ = HullDiscs(limits);
     // An obstacle may extend into a free voxel, so vehicles narrower than a voxel keep that distance.
-    const double wide_m = clearance_.hull_m + clearance_.margin_m;
+    const double wide_m = clearance_.hull_m + kept_margin_.passing_m();
     route_clearance_ = {wide_m, std::min(wide_m, std::max(clearance_.hull_m + kMinMarginM, config_.voxel_m)),
-                        kept_margin_.is_kept()};
+                        kept_margin_.is_kept() ? RouteClearance::Detours::long_ones : RouteClearance::Detours::usual};
     altitude_levels_ = AltitudeLevels(setup.altitude_band, route_clearance_);
     learned_ = {};
     around_.emplace(config_, setup, hull_discs_);
@@ -110,13 +110,14 @@ class LocalMap final : public Module {
     const Eigen::Vector2d p_W = navigation.p_WB_est.head<2>(), goal_W = observation.goal.p_WG.head<2>();
     const PathState now{t_s, p_W, (navigation.q_WB_est * navigation.v_WB_B_est).head<2>()};
     const double heading = heading_rad(navigation.q_WB_est);
+    route_clearance_.detours = kept_margin_.detours(p_W, mission_W.head<2>(), t_s);
     route_.build(slice(), route_clearance_, goal_W, learned_.beyond_m(goal_W, around_->height_W()));
+    hull_clearance_.set_turn(heading, last_nose_rad_);
     set_pace(now, heading, std::max(navigation.height_above_ground_m, kMinHeightM));
     if (!around_->changes_height()) {
       learned_.learn(route_, slice(), {p_W.x(), p_W.y(), around_->height_W()}, mission_W);
     }
     const auto to_goal_m = [&](const Eigen::Vector2d& at_W) { return route_.to_goal_m(at_W); };
-    hull_clearance_.set_turn(heading, last_nose_rad_);
     plan_ = plan_to(now, to_goal_m);
     const StopPlanner::Plan hoped = plan_to(now, to_goal_m, /*unknown_too=*/false);
 
@@ -125,7 +126,8 @@ class LocalMap final : public Module {
     constexpr double kArrivedM = 0.5, kHeldBack = 0.6;
     const bool arrived = p_BG_W.norm() < kArrivedM;
     const bool held = !arrived && route_m && plan_.progress_m < kHeldBack * hoped.progress_m;
-    unknown_target_.update(held, hoped.path, slice(), hull_clearance_, clearance_.hull_m, now, heading);
+    unknown_target_.update(held, hoped.path, slice(), hull_clearance_,
+                           clearance_.hull_m + kept_margin_.from_unknown_m(), now, heading);
     look(now, heading, route_m);
     if (config_.depth == stereo::DisparitySource::From::motion && !arrived) weave(now, heading);
     const bool goes_on = route_m && !(waits(now) && !unknown_target_.place_W() && !arrived);
@@ -168,6 +170,7 @@ class LocalMap final : public Module {
     hull_clearance_.set_clearance(
         walks ? kept_margin_.walking(clearance_, route_clearance_, slice(), now.p_W, nearest_m) : clearance_);
     if (!walks) kept_margin_.widen();
+    hull_clearance_.keep_from_unknown(slice(), now.p_W, kept_margin_.from_unknown_m(), around_->half_view_rad());
     planner_ = StopPlanner(response_, std::min({max_mps_, kGroundRadps * height_m, walks ? kWalkMps : max_mps_}),
                            [this, heading](double azimuth_rad) { return around_->looks_along(azimuth_rad - heading); });
   }

@@ -8,12 +8,13 @@
 namespace hedgehop::avoidance::local_map {
 namespace {
 
-constexpr int kStraight = 10;       // cost of a step to a neighbor, in tenths of a cell
-constexpr double kSideM = 0.8;      // additional distance from obstacles that a route prefers
-constexpr int kClosePrice = 3;      // factor on the cost without the additional distance
-constexpr int kNarrowPrice = 5;     // factor on the cost below the preferred distance
-constexpr double kKeptPrice = 8.0;  // the same if the preferred distance is to be kept
-constexpr double kDeepPrice = 8.0;  // additional factor at the minimum distance
+constexpr int kStraight = 10;          // cost of a step to a neighbor, in tenths of a cell
+constexpr double kSideM = 0.8;         // additional distance from obstacles that a route prefers
+constexpr int kClosePrice = 3;         // factor on the cost without the additional distance
+constexpr int kNarrowPrice = 5;        // factor on the cost below the preferred distance
+constexpr double kKeptPrice = 8.0;     // the same for long detours
+constexpr double kGivenUpPrice = 2.5;  // the same for short detours
+constexpr double kDeepPrice = 8.0;     // additional factor at the minimum distance
 static_assert(kStraight * RouteField::kUnknownPrice * (kKeptPrice + kDeepPrice) <= 255, "a price has 8 bits");
 
 struct Step {
@@ -44,7 +45,8 @@ constexpr size_t kMaxSquares = 20'000;  // maximum number of squares; above it a
 
 /// Returns the factor on the cost at a distance below the preferred one.
 double narrow_price(const RouteClearance& wanted, double away_m) {
-  if (!wanted.keeps_preferred) return kNarrowPrice;
+  if (wanted.detours == RouteClearance::Detours::short_ones) return kGivenUpPrice;
+  if (wanted.detours == RouteClearance::Detours::usual) return kNarrowPrice;
   return kKeptPrice + kDeepPrice * (wanted.preferred_m - away_m) / (wanted.preferred_m - wanted.least_m);
 }
 

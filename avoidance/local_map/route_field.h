@@ -16,7 +16,8 @@ namespace hedgehop::avoidance::local_map {
 /// Distance of a route from occupied cells: preferred and minimum distance, m.
 struct RouteClearance {
   double preferred_m = 0.0, least_m = 0.0;
-  bool keeps_preferred = false;  ///< long detours are better than a smaller distance
+  enum class Detours { short_ones, usual, long_ones };
+  Detours detours = Detours::usual;  ///< which are better than less than the preferred distance
 };
 
 /// Distance of every cell of the slice to the goal, through free and unknown space: [BrockKhatib1999] sec. on the

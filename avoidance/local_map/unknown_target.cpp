@@ -11,13 +11,13 @@ bool is_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W) {
 }
 
 std::optional<Eigen::Vector2d> unknown_on_path(const LevelSlice& slice, const HullClearance& hull_clearance,
-                                               const std::vector<PathState>& path, double hull_m) {
+                                               const std::vector<PathState>& path, double reach_m) {
   const auto first = std::ranges::find_if(
       path, [&](const PathState& m) { return hull_clearance.deficit(slice, m, true).unknown_m > 0.0; });
   if (first == path.end()) return std::nullopt;
   std::optional<Eigen::Vector2d> nearest;
   const Eigen::Vector2i here = slice.cell(first->p_W);
-  const int reach = static_cast<int>(std::ceil(hull_m / slice.cell_m())) + 2;
+  const int reach = static_cast<int>(std::ceil(reach_m / slice.cell_m())) + 2;
   for (int row = here.x() - reach; row <= here.x() + reach; ++row) {
     for (int col = here.y() - reach; col <= here.y() + reach; ++col) {
       if (!slice.contains(row, col) || slice.at(row, col) != LevelSlice::State::unknown) continue;
@@ -45,11 +45,11 @@ double ProgressTimer::stalled_s(std::optional<double> route_m, double t_s) {
 }
 
 void UnknownTarget::update(bool held, const std::vector<PathState>& hoped, const LevelSlice& slice,
-                           const HullClearance& hull_clearance, double hull_m, const PathState& now,
+                           const HullClearance& hull_clearance, double reach_m, const PathState& now,
                            double heading_rad) {
   const bool unknown_still = place_W_ && is_unknown(slice, *place_W_);
   if (!held && !(unknown_still && backs_off_ && points_at(*place_W_, now.p_W, heading_rad))) place_W_.reset();
-  if (held && !unknown_still) place_W_ = unknown_on_path(slice, hull_clearance, hoped, hull_m);
+  if (held && !unknown_still) place_W_ = unknown_on_path(slice, hull_clearance, hoped, reach_m);
   backs_off_ = place_W_ && (backs_off_ || is_hovering(now.v_W));
 }
 

@@ -14,9 +14,10 @@ namespace hedgehop::avoidance::local_map {
 bool is_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W);
 
 /// Returns the unknown cell nearest to the first violation of the distance from unknown space by a path that ignores
-/// it. Empty if there is no violation. @param hull_m  radius of the vehicle: search radius.
+/// it. Empty if there is no violation. @param reach_m  search radius: required distance from unknown space, with the
+/// hull.
 std::optional<Eigen::Vector2d> unknown_on_path(const LevelSlice& slice, const HullClearance& hull_clearance,
-                                               const std::vector<PathState>& path, double hull_m);
+                                               const std::vector<PathState>& path, double reach_m);
 
 /// Returns whether the nose points at a position, within 20 degrees. @param heading_rad  of the nose, from north to
 /// east.
@@ -63,9 +64,10 @@ class UnknownTarget {
   bool backs_off() const { return backs_off_; }
 
   /// @param held  whether a plan that ignores unknown space would stop at a better position: the end of `hoped`.
-  /// @param hull_m  radius of the vehicle. @param heading_rad  of the nose, from north to east.
+  /// @param reach_m  required distance from unknown space, with the hull. @param heading_rad  of the nose, from north
+  /// to east.
   void update(bool held, const std::vector<PathState>& hoped, const LevelSlice& slice,
-              const HullClearance& hull_clearance, double hull_m, const PathState& now, double heading_rad);
+              const HullClearance& hull_clearance, double reach_m, const PathState& now, double heading_rad);
 
   /// Returns the time for which the vehicle has hovered and pointed at the position, s; empty if it does not. @param
   /// v_cmd_W  current command, m/s. @param heading_rad  of the nose, from north to east.

@@ -110,5 +110,31 @@ TEST(HullClearance, KeepsASmallMarginWithSubCellAccuracy) {
   EXPECT_EQ(lacks_m(0.3, 0.6), lacks_m(0.3, 0.9));
 }
 
+// Known space is a disc of 6 m. The vehicle is at its center, or 4 m north of it.
+TEST(HullClearance, KeepsAMarginFromUnknownSpaceBeyondTheViewOrTheCurrentDistance) {
+  constexpr double kCellM = 0.1, kHullM = 0.3, kMarginM = 2.0, kHalfViewRad = 0.7, kKnownM = 6.0;
+  constexpr double kLookUp = 1.5 * kCellM;  // cells at the edge of the disc, and a look-up from the center of a cell
+  vision::mapping::OccupancyMap map({.voxel_m = kCellM, .across = 160, .layers = 1});
+  map.reset(Eigen::Vector3d::Zero());
+  map.clear_cylinder(Eigen::Vector3d(0.0, 0.0, 0.05), kKnownM, 1.0);
+  LevelSlice slice;
+  slice.build(map, {0.04, 0.06}, ClosedCells(kCellM));
+  HullClearance hull_clearance(HullDiscs({8.0, 3.0, kHullM, {}}), {kHullM, 0.0, 0.0}, kCellM);
+  hull_clearance.set_turn(0.0, 0.0);
+  const auto lacks_m = [&](double north_m) {
+    return hull_clearance.deficit(slice, {0.0, {north_m, 0.0}, Eigen::Vector2d::Zero()}, true).unknown_m;
+  };
+  EXPECT_EQ(lacks_m(5.0), 0.0);
+  hull_clearance.keep_from_unknown(slice, {0.0, 0.0}, kMarginM, kHalfViewRad);
+  EXPECT_EQ(lacks_m(3.0), 0.0);
+  EXPECT_NEAR(lacks_m(5.0), kHullM + kMarginM - 1.0, kLookUp);
+  hull_clearance.keep_from_unknown(slice, {4.0, 0.0}, kMarginM, kHalfViewRad);  // 1.7 m from its hull
+  EXPECT_EQ(lacks_m(4.0), 0.0);
+  EXPECT_NEAR(lacks_m(5.0), 1.0, kLookUp);                       // nearer than the view is wide
+  EXPECT_NEAR(lacks_m(-5.0), kHullM + kMarginM - 1.0, kLookUp);  // farther
+  hull_clearance.keep_from_unknown(slice, {4.0, 0.0}, 0.0, kHalfViewRad);
+  EXPECT_EQ(lacks_m(5.0), 0.0);
+}
+
 }  // namespace
 }  // namespace hedgehop::avoidance::local_map

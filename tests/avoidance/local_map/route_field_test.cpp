@@ -144,6 +144,23 @@ TEST(RouteField, LeadsThroughANarrowPassageOnlyIfTheDetourIsLong) {
   }
 }
 
+TEST(RouteField, PrefersLongDetoursOrOnlyShortOnesToANarrowPassage) {
+  using enum RouteClearance::Detours;
+  RouteClearance route_clearance{0.7, 0.2};
+  for (const auto& [narrow_col, wide_col, shorter, longer] :
+       {std::tuple{6, 11, short_ones, usual}, {2, 18, usual, long_ones}}) {
+    const Grid grid = two_gaps(narrow_col, wide_col);
+    const auto is_narrow = [&](RouteClearance::Detours detours) {
+      route_clearance.detours = detours;
+      RouteField field;
+      field.build(grid.slice, route_clearance, grid.slice.center(17, narrow_col), beyond);
+      return field.nearest_m(grid.slice.center(7, narrow_col), 1e3) < route_clearance.preferred_m;
+    };
+    EXPECT_TRUE(is_narrow(shorter)) << narrow_col;
+    EXPECT_FALSE(is_narrow(longer)) << narrow_col;
+  }
+}
+
 TEST(RouteField, RoutesKeepTheirDistanceFromObstacles) {
   constexpr double kNeedM = 0.7;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
