@@ -44,11 +44,11 @@ struct Vertex {
   uint32_t instance = 0;                            ///< index into Mesh::instances; equal at all corners of a triangle
 };
 
-/// The subset of a chunk's triangles that suffices at a distance. Movers are always drawn completely.
+/// The triangles that suffice at a distance: some of the chunk's, or coarser ones. Movers are always drawn completely.
 struct FarDetail {
   uint32_t first_index = 0;  ///< into Mesh::far_indices
   uint32_t index_count = 0;  ///< a multiple of 3; 0: the chunk is always drawn completely
-  float lost_m = 0.0f;       ///< maximum width of the omitted parts
+  float lost_m = 0.0f;       ///< maximum width of the omitted parts, or twice the displacement of coarser surfaces
 };
 
 /// Triangles that are culled together, such as a box of a building, a tree or a tile of ground. The triangles are close
@@ -60,6 +60,9 @@ struct Chunk {
   /// The box and the space below it, down to the ground, are opaque: the chunk can occlude others.
   bool fills_box_to_ground = false;
   FarDetail far;
+  /// A box inside the chunk that is opaque, with the space below it down to the ground: it can occlude others. Empty if
+  /// there is none.
+  Eigen::AlignedBox3f core_W;
 };
 
 /// All geometry of one material, drawn with one call. Triangles are counter-clockwise seen from outside.

@@ -109,6 +109,12 @@ void MeshBuilder::keep_from_afar(size_t first_index, double lost_m) {
   far.lost_m = std::max(far.lost_m, static_cast<float>(lost_m));
 }
 
+void MeshBuilder::move_to_far(size_t first_index, double lost_m) {
+  keep_from_afar(first_index, lost_m);
+  mesh_.chunks.back().index_count -= static_cast<uint32_t>(mesh_.indices.size() - first_index);
+  mesh_.indices.resize(first_index);
+}
+
 Mesh MeshBuilder::finish() {
   if (mesh_.instances.empty()) mesh_.instances.resize(1);
   return std::move(mesh_);

@@ -64,6 +64,13 @@ class MeshBuilder {
   /// omits, > 0, m; a chunk keeps the maximum.
   void keep_from_afar(size_t first_index, double lost_m);
 
+  /// Moves the triangles since `first_index` from the current chunk to its far detail. @see keep_from_afar()
+  /// @param lost_m  twice the distance of the surfaces of the far detail from those of the chunk, > 0, m.
+  void move_to_far(size_t first_index, double lost_m);
+
+  /// Sets the opaque core of the current chunk. @see Chunk::core_W
+  void set_core(const Eigen::AlignedBox3f& core_W) { mesh_.chunks.back().core_W = core_W; }
+
   /// Returns the mesh.
   Mesh finish();
 

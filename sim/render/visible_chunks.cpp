@@ -204,8 +204,12 @@ std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::Pinhole
       camera, X_WC, [&](const Eigen::AlignedBox3f& box_W) { return horizon_.hides(box_W); },
       [&](const scenes::Chunk& stretch) {
         visible_.push_back(stretch);
-        if (culling_ == Culling::frustum_and_horizon && stretch.fills_box_to_ground)
+        if (culling_ != Culling::frustum_and_horizon) return;
+        if (stretch.fills_box_to_ground) {
           horizon_.add_occluder(stretch.box_W);
+        } else if (!stretch.core_W.isEmpty()) {
+          horizon_.add_occluder(stretch.core_W);
+        }
       });
   return visible_;
 }
