@@ -36,6 +36,9 @@ hedgehop_package(hedgehop_zstd zstd.h LIBRARIES zstd)
 hedgehop_package(hedgehop_lz4 lz4frame.h LIBRARIES lz4)
 hedgehop_package(hedgehop_tiff tiffio.h LIBRARIES tiff OPTIONAL)
 hedgehop_package(hedgehop_webp webp/decode.h LIBRARIES webp OPTIONAL)
+# libosmium consists of headers, which use expat and zlib.
+hedgehop_package(hedgehop_osmium osmium/osm.hpp LIBRARIES expat z OPTIONAL)
+hedgehop_package(hedgehop_gdal gdal.h PATH gdal LIBRARIES gdal OPTIONAL)
 # Clearances must be accurate to 1 mm at a distance of 1 km from the origin, so Hedgehop uses Bullet's double-precision build.
 # In Debian, it has a suffix and is next to the single-precision one; a build of Bullet's own sources has no suffix. All users
 # of the header must see the same btScalar.

@@ -98,11 +98,17 @@ struct SceneAdditions {
   bool has_plane() const { return ground == Ground::plane && !terrain; }
 };
 
+/// Lists the objects; worlds with a ground of their own list only these.
 template <class Visitor>
-void describe(Visitor& v, fields::ConfigOf<SceneAdditions> auto& c) {
+void describe_objects(Visitor& v, fields::ConfigOf<SceneAdditions> auto& c) {
   v("boxes", c.boxes, {.meaning = "boxes on the ground, rotated about the vertical"});
   v("movers", c.movers, {.meaning = "moving obstacles"});
   v("imports", c.imports, {.meaning = "meshes from files, as scenery and obstacles"});
+}
+
+template <class Visitor>
+void describe(Visitor& v, fields::ConfigOf<SceneAdditions> auto& c) {
+  describe_objects(v, c);
   v("ground", c.ground, {.choices = {"plane", "none"}, .meaning = "the ground of the world at altitude 0, or none"});
   v("terrain", c.terrain, {.meaning = "a terrain from a heightmap, instead of the ground at altitude 0"});
   v("origin", c.origin_ENU,

@@ -25,6 +25,7 @@ Scene generate(const worlds::CheckerboardConfig& config, uint64_t seed) {
   return worlds::make_checkerboard(config, seed);
 }
 Scene generate(const worlds::OpenConfig& config, uint64_t seed) { return worlds::make_open(config, seed); }
+Scene generate(const worlds::MapConfig& config, uint64_t seed) { return worlds::make_map(config, seed); }
 Scene generate(const worlds::AprilGridConfig& config, uint64_t seed) { return worlds::make_aprilgrid(config, seed); }
 
 }  // namespace

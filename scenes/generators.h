@@ -8,6 +8,7 @@
 #include "scenes/worlds/calibration_board.h"
 #include "scenes/worlds/corridor.h"
 #include "scenes/worlds/highrise.h"
+#include "scenes/worlds/map.h"
 #include "scenes/worlds/open.h"
 #include "scenes/worlds/park.h"
 #include "scenes/worlds/room.h"
@@ -17,10 +18,10 @@
 
 namespace hedgehop::scenes {
 
-using SceneConfig =
-    std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds::TreeConfig, worlds::ForestConfig,
-                 worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig, worlds::WallConfig,
-                 worlds::ParkConfig, worlds::OpenConfig, worlds::CheckerboardConfig, worlds::AprilGridConfig>;
+using SceneConfig = std::variant<worlds::UrbanConfig, worlds::RoomConfig, worlds::TreeConfig, worlds::ForestConfig,
+                                 worlds::CorridorConfig, worlds::HighriseConfig, worlds::BalloonConfig,
+                                 worlds::WallConfig, worlds::ParkConfig, worlds::OpenConfig, worlds::MapConfig,
+                                 worlds::CheckerboardConfig, worlds::AprilGridConfig>;
 
 /// Returns the scene of `config`. Equal arguments give scenes that are equal bit for bit.
 /// @throws std::invalid_argument with the field, its value and the valid values.

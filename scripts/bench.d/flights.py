@@ -6,9 +6,11 @@ are printed, too.
 
 import json
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
+import sys
 import time
 
 SEED, SECONDS, START_SECONDS = 1101, 20, 0.1
@@ -22,6 +24,7 @@ FLIGHTS = [("city, five cameras of 400 px at 50 Hz, day noise", "garratt2009_cit
            ("zingg 2m5", "zingg2010_corridor_2m5", []),
            ("shah avoid", "shah2009_avoid", []),
            ("local_map city", "local_map_city", [])]
+TOWN = "town of 5 km, the cameras of city light"
 
 
 def cpu_s():
@@ -39,6 +42,19 @@ def fly(root, hedgehop, scenario, seconds, options):
     if done.returncode > 1:  # 1: the flight collides
         raise SystemExit(f"{scenario}: {done.stderr.strip()}")
     return cpu_s() - before, json.loads((out / "result.json").read_text())
+
+
+def flight_in_town(root, hedgehop):
+    """The flight along a street of a generated map; none if this build reads no maps."""
+    features = subprocess.run([hedgehop, "--version", "--features"], capture_output=True, text=True, check=True).stdout
+    if not re.search(r"yes +maps from OpenStreetMap", features):
+        return []
+    file = root / "out/bench/town.osm"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run([sys.executable, root / "scripts/bench.d/town.py", file], check=True)
+    return [(TOWN, "garratt2009_city_0_light",
+             ["--set", f"scene={{type: map, osm: {file}, origin: {{latitude: 47, longitude: 8}}, vehicles: 10}}",
+              "--set", "start={north: -130, east: 60, altitude: 10, heading: 0}"])]
 
 
 def long_flight(root, hedgehop):
@@ -62,6 +78,8 @@ def print_page(root, hedgehop):
 
 def run(root, hedgehop, wanted):
     chosen = [flight for flight in FLIGHTS if any(word in flight[1] or word == "flights" for word in wanted or [""])]
+    if any(word in TOWN or word == "flights" for word in wanted or [""]):
+        chosen += flight_in_town(root, hedgehop)
     if not chosen:
         return False
     print(f"\n{'flight with tiles, one core':52} {'x real time':>11} {'render ms':>10} {'decision ms':>12}")

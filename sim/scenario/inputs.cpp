@@ -38,6 +38,8 @@ std::set<fs::path> named_files(const Scenario& scenario) {
   for (const scenes::MoverConfig& mover : added.movers) add_motion(mover.motion);
   if (const auto* const balloon = std::get_if<scenes::worlds::BalloonConfig>(&scenario.scene))
     add_motion(balloon->motion);
+  if (const auto* map = std::get_if<scenes::worlds::MapConfig>(&scenario.scene))
+    files.merge(std::set<fs::path>{map->osm, map->terrain});
   for (const scenes::mesh::ImportConfig& import : added.imports) files.merge(scenes::mesh::mesh_files(import.file));
   for (const CameraConfig& camera : scenario.rig.cameras) files.insert(camera.calibration);
   files.insert(scenario.rig.read_calibrations.begin(), scenario.rig.read_calibrations.end());

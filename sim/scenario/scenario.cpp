@@ -43,8 +43,8 @@ constexpr FormerKey kFormerKeys[] = {
      .advice = "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"},
 };
 
-/// Makes the paths of imports, of tables of motion and of the heightmap absolute, from the folder of the file that
-/// names them, so that the written scenario can be read from any folder.
+/// Makes the paths of imports, maps, tables of motion and heightmaps absolute, from the folder of the file that names
+/// them, so that the written scenario can be read from any folder.
 void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   scenes::SceneAdditions& added = std::visit(
       [](auto& chosen) -> auto& { return chosen.added; }, scene);
@@ -63,6 +63,10 @@ void resolve_files(scenes::SceneConfig& scene, const Node& root) {
   if (auto* const balloon = std::get_if<scenes::worlds::BalloonConfig>(&scene))
     resolve_motion(balloon->motion, "scene.motion");
   if (added.terrain) resolve(added.terrain->heightmap, "scene.terrain.heightmap");
+  if (auto* map = std::get_if<scenes::worlds::MapConfig>(&scene)) {
+    resolve(map->osm, "scene.osm");
+    resolve(map->terrain, "scene.terrain");
+  }
 }
 
 /// Makes the paths of files in the command that starts an autopilot absolute.

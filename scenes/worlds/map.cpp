@@ -1,0 +1,161 @@
+#include "scenes/worlds/map.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "scenes/map/building_mesh.h"
+#include "scenes/map/ground_mesh.h"
+#include "scenes/map/map_files.h"
+#include "scenes/map/map_trees.h"
+#include "scenes/map/streets.h"
+#include "scenes/map/traffic.h"
+#include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
+#include "sim/libm/random.h"
+
+namespace hedgehop::scenes::worlds {
+namespace {
+
+using Eigen::Vector2d;
+
+// Streams of the map's seed.
+constexpr uint64_t kTownImageStream = 0, kTownBuildingStream = 1, kTownTreeStream = 2, kTreeShapeStream = 3,
+                   kTrafficStream = 4;
+
+/// Calls `read` and adds the key and the file to its error.
+template <class Read>
+auto read_file(const char* key, const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const std::invalid_argument& fault) {
+    throw fields::InvalidField(key, "'" + file + "': " + fault.what());
+  }
+}
+
+/// The objects within the radius, and the extent of all objects.
+class NearObjects {
+ public:
+  explicit NearObjects(double radius_m) : radius_m_(radius_m) {}
+
+  /// Returns whether points are within the radius, and notes them or counts their object.
+  bool takes(const std::vector<Vector2d>& points_NE) {
+    for (const Vector2d& p : points_NE) {
+      if (p.cwiseAbs().maxCoeff() > radius_m_) {
+        ++left_out_;
+        return false;
+      }
+    }
+    for (const Vector2d& p : points_NE) bounds_NE_.extend(p);
+    return true;
+  }
+
+  int left_out() const { return left_out_; }
+  Eigen::AlignedBox2d bounds_NE() const {
+    constexpr double kMarginM = 20.0;
+    Eigen::AlignedBox2d box = bounds_NE_;
+    box.extend(Vector2d::Zero().eval());
+    return {box.min() - Vector2d::Constant(kMarginM), box.max() + Vector2d::Constant(kMarginM)};
+  }
+
+ private:
+  double radius_m_;
+  int left_out_ = 0;
+  Eigen::AlignedBox2d bounds_NE_;
+};
+
+std::string summary(const MapConfig& config, const std::vector<map::MapBuilding>& buildings,
+                    const std::vector<map::Street>& streets, size_t trees, int left_out) {
+  double area_m2 = 0.0, length_m = 0.0;
+  for (const map::MapBuilding& building : buildings) {
+    for (const map::Footprint& footprint : building.footprints) area_m2 += map::area_m2(footprint);
+  }
+  for (const map::Street& street : streets) {
+    for (size_t i = 1; i < street.line_NE.size(); ++i) length_m += (street.line_NE[i] - street.line_NE[i - 1]).norm();
+  }
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu buildings on %.1f m2, %zu streets of %.1f m, %zu trees", buildings.size(),
+                area_m2, streets.size(), length_m, trees);
+  std::string line = "'" + config.osm + "': " + text;
+  if (left_out > 0) line += "; " + std::to_string(left_out) + " objects outside scene.radius";
+  return line;
+}
+
+map::Ground ground_of(const MapConfig& config, const map::LocalPlane& plane) {
+  if (config.terrain.empty()) return {};
+  return read_file("terrain", config.terrain, [&] {
+    return map::Ground(map::read_heights(config.terrain, plane.bounds(config.radius_m)), plane,
+                       config.origin.altitude_m);
+  });
+}
+
+}  // namespace
+
+MapContents read_map(const MapConfig& config, uint64_t seed) {
+  fields::require_bounds(config);
+  require_texture_size(config.texture_size_px);
+  fields::require(!config.osm.empty(), "osm", "is required");
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  const map::LocalPlane plane({config.origin.latitude_rad * kDegPerRad, config.origin.longitude_rad * kDegPerRad});
+  map::OsmObjects objects = read_file("osm", config.osm, [&] { return map::read_osm(config.osm); });
+  const map::Ground ground = ground_of(config, plane);
+
+  MapContents contents;
+  std::vector<std::string>& faults = objects.faults;
+  NearObjects near(config.radius_m);
+  std::vector<map::MapBuilding> buildings;
+  for (const map::OsmArea& area : objects.buildings) {
+    map::MapBuilding building =
+        map::building_of(area, plane, {config.building_height_m, config.level_height_m}, faults);
+    bool all_near = true;
+    for (const map::Footprint& footprint : building.footprints) all_near = all_near && near.takes(footprint.outer);
+    if (all_near) buildings.push_back(std::move(building));
+  }
+  std::vector<map::Street> streets;
+  for (const map::OsmLine& line : objects.streets) {
+    std::optional<map::Street> street = map::street_of(line, plane, faults);
+    if (street && near.takes(street->line_NE)) streets.push_back(std::move(*street));
+  }
+  std::vector<map::MapTree> trees = map::trees_of(objects, plane, derived_seed(seed, kTownTreeStream), faults);
+  std::erase_if(trees, [&](const map::MapTree& tree) { return !near.takes({tree.p_NE}); });
+  contents.remarks.push_back(summary(config, buildings, streets, trees.size(), near.left_out()));
+
+  map::TownTextures town =
+      map::town_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kTownImageStream));
+  Scene& scene = contents.scene;
+  scene.textures = town.images();
+  scene.bounds_NE_m = near.bounds_NE();
+  scene.has_ground = !ground.terrain();
+  mesh::MeshBuilder mesh("opaque");
+  map::add_ground_mesh(ground, map::street_surfaces(streets, town), 0.5 * scene.bounds_NE_m.sizes().maxCoeff(),
+                       town.city.grass, mesh, scene.solids);
+  if (mesh.index_count() == 0)
+    throw fields::InvalidField("terrain", "'" + config.terrain + "': it has no cell with data");
+  for (size_t k = 0; k < buildings.size(); ++k) {
+    Random random(derived_seed(derived_seed(seed, kTownBuildingStream), k));
+    map::add_map_building(buildings[k], ground, town, random, mesh, scene.solids, faults);
+  }
+  map::add_map_trees(std::move(trees), ground, town, derived_seed(seed, kTreeShapeStream), mesh, scene.solids, faults);
+  scene.meshes.push_back(mesh.finish());
+  map::add_traffic(streets, ground, town, config.vehicles, config.vehicle_speed_mps, derived_seed(seed, kTrafficStream),
+                   scene.movers);
+  std::ranges::move(faults, std::back_inserter(contents.remarks));
+  return contents;
+}
+
+Scene make_map(const MapConfig& config, uint64_t) {
+  fields::require_bounds(config);
+  require_texture_size(config.texture_size_px);
+  Scene scene;
+  scene.name = "map";
+  scene.textures = TextureList(static_cast<int>(config.texture_size_px));
+  scene.lights.ambient = 0.62f;
+  scene.lights.sun = 0.50f;
+  scene.lights.to_sun_W = Eigen::Vector3f(0.35f, -0.55f, -0.76f).normalized();
+  return scene;
+}
+
+}  // namespace hedgehop::scenes::worlds
