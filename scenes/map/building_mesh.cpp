@@ -87,6 +87,26 @@ void add_walls(const std::vector<PlanRing>& rings, const Vector3d& origin_W, dou
   }
 }
 
+/// Adds upright faces above the eaves, with the plain strip of the walls' texture between two windows.
+void add_gables(const std::vector<BuildingBody::Triangle>& faces, const Vector3d& origin_W, const WallStyle& walls,
+                const TownTextures& town, mesh::MeshBuilder& mesh) {
+  constexpr double kStripM = 0.02, kBaysPerM = 0.002;  // a part of the strip is stretched over the face
+  const textures::FacadeStyle& style = textures::facade_styles()[static_cast<size_t>(walls.style)];
+  for (const BuildingBody::Triangle& face : faces) {
+    const Vector3d n_W = (face[1] - face[0]).cross(face[2] - face[0]).normalized();
+    const Vector2d along(-n_W.y(), n_W.x());
+    std::array<Vertex, 3> corners;
+    for (size_t k = 0; k < 3; ++k) {
+      const double bay = walls.first_bay + kStripM + kBaysPerM * along.dot(face[k].head<2>());
+      corners[k].p_W = (origin_W + face[k]).cast<float>();
+      corners[k].n_W = n_W.cast<float>();
+      corners[k].uv = Vector2d(bay / style.bays, face[k].z() / textures::FacadeStyle::kTileM).cast<float>();
+      corners[k].texture = town.city.facade(walls.style, walls.first_variant);
+    }
+    mesh.add(corners, std::array<std::array<uint32_t, 3>, 1>{{{0, 1, 2}}});
+  }
+}
+
 /// Returns a level roof over a convex outline.
 std::vector<BuildingBody::Triangle> level_roof(const PlanRing& outline, double height_m) {
   const auto corner = [&](size_t i) { return Vector3d(outline[i].x(), outline[i].y(), -height_m); };
@@ -143,7 +163,7 @@ void add_map_building(const MapBuilding& building, const Ground& ground, const T
     if (bottom_m <= 0.0) mesh.set_core(core_of(body, origin_W));
     add_walls(body.walls, origin_W, bottom_m, body.eaves_m, walls, true, town, mesh);
     add_faces(body.roof, origin_W, roof, mesh);
-    add_faces(body.gables, origin_W, plain, mesh);
+    add_gables(body.gables, origin_W, walls, town, mesh);
     add_faces(body.bottom, origin_W, plain, mesh);
 
     // From afar, a level roof at half its height.
