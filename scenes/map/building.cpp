@@ -33,7 +33,7 @@ RoofShape roof_shape(const TagReader& tags) {
       {"gabled", RoofShape::gabled}, {"hipped", RoofShape::hipped}, {"pyramidal", RoofShape::pyramidal}};
   const auto found = kShapes.find(tags.text("roof:shape"));
   if (found != kShapes.end()) return found->second;
-  tags.report("roof:shape", "drawn flat; valid: flat, skillion, gabled, hipped, pyramidal");
+  tags.report("roof:shape", "it is drawn flat; valid: flat, skillion, gabled, hipped, pyramidal");
   return RoofShape::flat;
 }
 
@@ -48,6 +48,7 @@ double area_m2(const Footprint& footprint) {
 MapBuilding building_of(const OsmArea& area, const LocalPlane& plane, const DefaultHeights& defaults,
                         std::vector<std::string>& faults) {
   constexpr double kRoofM = 2.5, kMinWallM = 0.5, kMaxRoofShare = 0.5;  // of roofs without tags
+  constexpr double kMinHeightM = 0.1, kMaxHeightM = 1500.0, kMaxLevels = 300.0;
   MapBuilding building;
   building.name = area.name;
   for (const GeoPolygon& polygon : area.polygons) {
@@ -58,10 +59,12 @@ MapBuilding building_of(const OsmArea& area, const LocalPlane& plane, const Defa
   const TagReader tags(area.name, area.tags, faults);
   building.roof = roof_shape(tags);
   building.ridge_across = tags.text("roof:orientation") == "across";
-  if (const std::optional<double> direction = tags.number("roof:direction"))
-    building.slope_to_rad = *direction * std::numbers::pi / 180.0;
-  const std::optional<double> height_m = tags.length_m("height"), levels = tags.number("building:levels");
-  const std::optional<double> roof_levels = tags.number("roof:levels"), own_roof_m = tags.length_m("roof:height");
+  if (const std::optional<double> direction_deg = tags.direction_deg("roof:direction"))
+    building.slope_to_rad = *direction_deg * std::numbers::pi / 180.0;
+  const std::optional<double> height_m = tags.length_m("height", kMinHeightM, kMaxHeightM),
+                              levels = tags.number("building:levels", kMaxLevels),
+                              roof_levels = tags.number("roof:levels", kMaxLevels),
+                              own_roof_m = tags.length_m("roof:height", 0.0, kMaxHeightM);
   double roof_m = kRoofM;
   if (own_roof_m) {
     roof_m = *own_roof_m;
@@ -76,7 +79,8 @@ MapBuilding building_of(const OsmArea& area, const LocalPlane& plane, const Defa
   } else if (levels) {
     building.height_m = *levels * defaults.level_m + roof_m;
   }
-  const std::optional<double> min_m = tags.length_m("min_height"), min_level = tags.number("building:min_level");
+  const std::optional<double> min_m = tags.length_m("min_height", 0.0, kMaxHeightM),
+                              min_level = tags.number("building:min_level", kMaxLevels);
   building.min_height_m = min_m ? *min_m : min_level.value_or(0.0) * defaults.level_m;
   if (!(building.height_m > building.min_height_m)) {
     faults.push_back(area.name + ": its height is not above its min_height; both are ignored");

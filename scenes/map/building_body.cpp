@@ -146,21 +146,34 @@ void add_ridge(const PlanRing& ring, const MapBuilding& building, BuildingBody& 
   body.hulls.push_back(builder.finish());
 }
 
-void add_flat(const Footprint& footprint, bool convex, double bottom_m, double top_m, BuildingBody& body) {
+/// Returns whether the roof covers the footprint.
+bool add_flat(const Footprint& footprint, bool convex, double bottom_m, double top_m, BuildingBody& body) {
   if (convex) {
     ConvexBuilder builder(footprint.outer, bottom_m, std::vector<double>(footprint.outer.size(), top_m));
     builder.add_flat_top(body.roof);
     body.hulls.push_back(builder.finish());
-    return;
+    return true;
   }
+  double covered_m2 = 0.0;
   const FootprintTriangles parts = triangles_of(footprint);
   for (const auto& [a, b, c] : parts.triangles) {
     const PlanRing triangle{parts.corners[a], parts.corners[b], parts.corners[c]};
-    if (area_m2({triangle, {}}) < kMinTriangleM2 || !is_convex(triangle)) continue;
+    const double own_m2 = area_m2({triangle, {}});
+    covered_m2 += std::abs(own_m2);
+    if (own_m2 < kMinTriangleM2 || !is_convex(triangle)) continue;
     ConvexBuilder builder(triangle, bottom_m, {top_m, top_m, top_m});
     builder.add_flat_top(body.roof);
     body.hulls.push_back(builder.finish());
   }
+  constexpr double kMaxErrorShare = 1e-3;
+  const double whole_m2 = area_m2(footprint);
+  return std::abs(covered_m2 - whole_m2) <= kMaxErrorShare * whole_m2;
+}
+
+size_t corner_count(const Footprint& footprint) {
+  size_t count = footprint.outer.size();
+  for (const PlanRing& hole : footprint.holes) count += hole.size();
+  return count;
 }
 
 /// Returns whether the outline permits the building's roof.
@@ -173,6 +186,12 @@ bool fits(RoofShape roof, const PlanRing& outline, bool convex) {
 
 BuildingBody body_of(const Footprint& footprint, const MapBuilding& building, std::vector<std::string>& faults) {
   BuildingBody body;
+  constexpr size_t kMaxCorners = 5000, kMaxHoles = 100;  // the cost of triangles is quadratic
+  if (corner_count(footprint) > kMaxCorners || footprint.holes.size() > kMaxHoles) {
+    faults.push_back(building.name + ": left out, since its outline has more than " + std::to_string(kMaxCorners) +
+                     " corners or " + std::to_string(kMaxHoles) + " courtyards");
+    return body;
+  }
   body.middle_NE = footprint.outer.empty() ? Vector2d::Zero() : footprint.outer.front();
   const auto relative = [&](PlanRing ring) {
     for (Vector2d& p : ring) p -= body.middle_NE;
@@ -180,7 +199,7 @@ BuildingBody body_of(const Footprint& footprint, const MapBuilding& building, st
   };
   Footprint own{relative(footprint.outer), {}};
   if (own.outer.empty()) {
-    faults.push_back(building.name + ": its outline has no area");
+    faults.push_back(building.name + ": left out, since its outline has no area");
     return body;
   }
   for (const PlanRing& hole : footprint.holes) {
@@ -195,7 +214,8 @@ BuildingBody body_of(const Footprint& footprint, const MapBuilding& building, st
   if (drawn_flat && !is_flat) faults.push_back(building.name + ": its outline does not fit its roof:shape; drawn flat");
   body.eaves_m = drawn_flat ? building.height_m : building.eaves_m();
   if (drawn_flat) {
-    add_flat(own, convex, building.min_height_m, building.height_m, body);
+    if (!add_flat(own, convex, building.min_height_m, building.height_m, body))
+      faults.push_back(building.name + ": its outline touches itself, so its roof is not complete");
   } else if (building.roof == RoofShape::skillion) {
     add_skillion(own.outer, building, body);
   } else if (building.roof == RoofShape::pyramidal) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct HeightSample {
 struct HeightSamples {
   int rows = 0, columns = 0;
   std::vector<HeightSample> samples;
-  int stride = 1;  ///< in samples of the file, if it has more than the maximum
+  int stride = 1;                ///< in samples of the file, if it has more than the maximum
+  double skipped_error_m = 0.0;  ///< maximum distance of a skipped sample from the triangles between the others
+  int64_t absurd_count = 0;      ///< samples, also skipped ones, with heights that do not exist on Earth, thus unknown
 };
 
 /// The function of libhedgehop_elevation.so, which is loaded for the first map with terrain.

@@ -28,6 +28,11 @@ struct QuietErrors {
 
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
 
+[[noreturn]] void refuse_by_gdal() {
+  const std::string why = CPLGetLastErrorMsg();
+  refuse(why.empty() ? "GDAL does not know its format" : why);
+}
+
 struct Release {
   void operator()(GDALDatasetH file) const { GDALClose(file); }
 };
@@ -118,7 +123,72 @@ template <class T>
 void read_row(GDALRasterBandH band, int left, int row, GDALDataType type, std::vector<T>& values) {
   const int count = static_cast<int>(values.size());
   if (GDALRasterIO(band, GF_Read, left, row, count, 1, values.data(), count, 1, type, 0, 0) != CE_None)
-    refuse(CPLGetLastErrorMsg());
+    refuse_by_gdal();
+}
+
+/// Reads rows of heights, m; NaN for samples without data.
+class HeightRows {
+ public:
+  HeightRows(GDALRasterBandH band, const Window& window)
+      : band_(band),
+        mask_(GDALGetMaskBand(band)),
+        unit_m_(meters_per_unit(band)),
+        scale_(GDALGetRasterScale(band, nullptr)),
+        offset_(GDALGetRasterOffset(band, nullptr)),
+        window_(window),
+        known_(static_cast<size_t>(window.right - window.left)) {}
+
+  /// @param y  from the top of the window. @param[out] absurd_count  increased by the heights that do not exist.
+  std::vector<double> read(int y, int64_t& absurd_count) {
+    constexpr double kLowestM = -12e3, kHighestM = 10e3;  // of the sea floor and of mountains
+    std::vector<double> heights_m(known_.size());
+    read_row(band_, window_.left, window_.top + y, GDT_Float64, heights_m);
+    read_row(mask_, window_.left, window_.top + y, GDT_Byte, known_);
+    for (size_t x = 0; x < heights_m.size(); ++x) {
+      double& height_m = heights_m[x];
+      height_m = unit_m_ * (offset_ + scale_ * height_m);
+      if (known_[x] != 0 && height_m >= kLowestM && height_m <= kHighestM) continue;
+      absurd_count += known_[x] != 0 && !std::isnan(height_m) ? 1 : 0;
+      height_m = std::numeric_limits<double>::quiet_NaN();
+    }
+    return heights_m;
+  }
+
+ private:
+  GDALRasterBandH band_, mask_;
+  double unit_m_, scale_, offset_;
+  Window window_;
+  std::vector<uint8_t> known_;
+};
+
+/// Returns the maximum distance of the samples between two kept rows from the triangles between kept samples.
+/// @param rows  stride + 1 rows, the first and the last one kept.
+double skipped_error_m(const std::vector<std::vector<double>>& rows, int stride) {
+  double error_m = 0.0;
+  const auto step = static_cast<size_t>(stride);
+  for (size_t left = 0; left + step < rows.front().size(); left += step) {
+    const double northwest = rows[0][left], northeast = rows[0][left + step], southwest = rows[step][left],
+                 southeast = rows[step][left + step];
+    for (size_t i = 0; i <= step; ++i) {
+      for (size_t k = 0; k <= step; ++k) {
+        const double south = static_cast<double>(i) / stride, east = static_cast<double>(k) / stride;
+        const double on_surface =
+            south + east <= 1.0
+                ? northwest + south * (southwest - northwest) + east * (northeast - northwest)
+                : southeast + (1.0 - south) * (northeast - southeast) + (1.0 - east) * (southwest - southeast);
+        const double off_m = std::abs(rows[i][left + k] - on_surface);
+        if (off_m > error_m) error_m = off_m;  // false for unknown heights
+      }
+    }
+  }
+  return error_m;
+}
+
+/// Refuses files that are no elevation models of the size that a map can have.
+void require_elevations(GDALDatasetH file) {
+  if (GDALGetRasterCount(file) < 1) refuse("it has no raster band");
+  const GDALColorInterp color = GDALGetRasterColorInterpretation(GDALGetRasterBand(file, 1));
+  if (color == GCI_RedBand || color == GCI_PaletteIndex) refuse("it is an image, not an elevation model");
 }
 
 }  // namespace
@@ -132,7 +202,8 @@ extern "C" void hedgehop_read_elevations(const std::filesystem::path& path,
   GDALAllRegister();
   const QuietErrors quiet;
   const File file(GDALOpenEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr, nullptr));
-  if (!file) refuse(CPLGetLastErrorMsg());
+  if (!file) refuse_by_gdal();
+  require_elevations(file.get());
   GeoTransform to_file, to_pixel;
   if (GDALGetGeoTransform(file.get(), to_file.data()) != CE_None ||
       !GDALInvGeoTransform(to_file.data(), to_pixel.data()))
@@ -144,25 +215,26 @@ extern "C" void hedgehop_read_elevations(const std::filesystem::path& path,
       window(bounds, projection, to_pixel, GDALGetRasterXSize(file.get()), GDALGetRasterYSize(file.get()));
   const int width = all.right - all.left, height = all.bottom - all.top;
   if (width < 2 || height < 2) refuse("it does not cover the map");
+  constexpr int kMaxSide = 100'000;
+  if (std::max(width, height) > kMaxSide)
+    refuse("it has " + std::to_string(width) + " x " + std::to_string(height) +
+           " samples across the map; valid: at most " + std::to_string(kMaxSide) + " along each side");
 
-  const GDALRasterBandH band = GDALGetRasterBand(file.get(), 1), mask = GDALGetMaskBand(band);
-  const double unit_m = meters_per_unit(band), scale = GDALGetRasterScale(band, nullptr),
-               offset = GDALGetRasterOffset(band, nullptr);
+  HeightRows heights(GDALGetRasterBand(file.get(), 1), all);
   read.stride = (std::max(width, height) + max_side - 1) / max_side;
   read.rows = (height - 1) / read.stride + 1;
   read.columns = (width - 1) / read.stride + 1;
-  std::vector<double> values(static_cast<size_t>(width));
-  std::vector<uint8_t> known(static_cast<size_t>(width));
-  for (int row = 0; row < read.rows; ++row) {
-    const int y = all.top + row * read.stride;
-    read_row(band, all.left, y, GDT_Float64, values);
-    read_row(mask, all.left, y, GDT_Byte, known);
+  std::vector<std::vector<double>> rows;
+  for (int y = 0; y <= (read.rows - 1) * read.stride; ++y) {
+    rows.push_back(heights.read(y, read.absurd_count));
+    if (y % read.stride != 0) continue;
     for (int column = 0; column < read.columns; ++column) {
       const int x = column * read.stride;
-      const auto at = static_cast<size_t>(x);
-      const double height_m =
-          known[at] != 0 ? unit_m * (offset + scale * values[at]) : std::numeric_limits<double>::quiet_NaN();
-      read.samples.push_back({projection.place(applied(to_file, all.left + x + 0.5, y + 0.5)), height_m});
+      read.samples.push_back({projection.place(applied(to_file, all.left + x + 0.5, all.top + y + 0.5)),
+                              rows.back()[static_cast<size_t>(x)]});
     }
+    if (y > 0 && read.stride > 1)
+      read.skipped_error_m = std::max(read.skipped_error_m, skipped_error_m(rows, read.stride));
+    rows.erase(rows.begin(), rows.end() - 1);
   }
 }

@@ -25,7 +25,12 @@ LocalPlane::LocalPlane(const GeoPoint& origin) : origin_(origin), center_m_(geoc
       -std::sin(longitude), std::cos(longitude), 0.0;
 }
 
-Eigen::Vector2d LocalPlane::p_NE(const GeoPoint& place) const { return axes_ * (geocentric_m(place) - center_m_); }
+Eigen::Vector2d LocalPlane::p_NE(const GeoPoint& place) const {
+  constexpr double kMaxDistanceM = 1e6;
+  const Eigen::Vector3d from_origin_m = geocentric_m(place) - center_m_;
+  if (from_origin_m.norm() > kMaxDistanceM) return {kMaxDistanceM, kMaxDistanceM};
+  return axes_ * from_origin_m;
+}
 
 GeoBounds LocalPlane::bounds(double radius_m) const {
   constexpr double kMarginShare = 1.02;  // a degree is up to 1 % shorter than at the equator

@@ -14,7 +14,8 @@ class LocalPlane {
   explicit LocalPlane(const GeoPoint& origin);
 
   /// Returns the place of a point of the ellipsoid in the plane: north and east, m. Lengths of 5 km from the origin
-  /// shrink by 3e-7 of their size.
+  /// shrink by 3e-7 of their size. Places beyond the horizon of 1000 km are returned as one point far away, since the
+  /// plane would show them in front of it.
   /// Source: [WGS84] sec. 4.2, geocentric coordinates. Differs: rotated into the north and east of the origin.
   Eigen::Vector2d p_NE(const GeoPoint& place) const;
 

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -34,7 +35,9 @@ template <class Call>
   } catch (const std::invalid_argument&) {
     throw;
   } catch (const std::exception& fault) {
-    throw std::invalid_argument(fault.what());
+    std::string line = fault.what();
+    std::ranges::replace(line, '\n', ' ');
+    throw std::invalid_argument(line);
   }
 }
 

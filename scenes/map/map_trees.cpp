@@ -21,12 +21,12 @@ constexpr double kRowSpacingM = 8.0, kTreePlotM = 32.0;  // trees of a plot are 
 
 MapTree tree_of(const std::string& name, const Tags& tags, const Vector2d& p_NE, Random& random,
                 std::vector<std::string>& faults) {
-  constexpr double kMinHeightM = 1.0, kMaxHeightM = 100.0, kMinCrownM = 0.5, kMaxCrownM = 40.0;
+  constexpr double kMinHeightM = 1.0, kMaxHeightM = 130.0, kMinCrownM = 0.5, kMaxCrownM = 40.0;
   const TagReader reader(name, tags, faults);
-  const double height_m = reader.length_m("height").value_or(uniform(random, 6.0, 11.0));
-  const double crown_m = reader.length_m("diameter_crown").value_or(uniform(random, 0.45, 0.65) * height_m);
-  return {name, p_NE, std::clamp(height_m, kMinHeightM, kMaxHeightM),
-          0.5 * std::clamp(crown_m, kMinCrownM, kMaxCrownM)};
+  const double height_m = reader.length_m("height", kMinHeightM, kMaxHeightM).value_or(uniform(random, 6.0, 11.0));
+  const double crown_m = reader.length_m("diameter_crown", kMinCrownM, kMaxCrownM)
+                             .value_or(std::max(kMinCrownM, uniform(random, 0.45, 0.65) * height_m));
+  return {name, p_NE, height_m, 0.5 * crown_m};
 }
 
 std::tuple<int, int> plot_of(const MapTree& tree) {
@@ -83,6 +83,12 @@ std::vector<MapTree> trees_of(const OsmObjects& objects, const LocalPlane& plane
     for (size_t i = 0; i + 1 < row.points.size(); ++i) {
       const Vector2d from = plane.p_NE(row.points[i]), along = plane.p_NE(row.points[i + 1]) - from;
       const double length_m = along.norm();
+      constexpr double kMaxLengthM = 20e3;
+      if (!(length_m > 0.0)) continue;
+      if (length_m > kMaxLengthM) {
+        faults.push_back(row.name + ": points of it are more than 20 km apart");
+        break;
+      }
       for (; next_m <= length_m; next_m += kRowSpacingM)
         trees.push_back(tree_of(row.name, row.tags, from + next_m / length_m * along, random, faults));
       next_m -= length_m;

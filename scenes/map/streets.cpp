@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "scenes/map/tags.h"
@@ -22,16 +23,25 @@ struct StreetKind {
 
 const StreetKind* kind_of(std::string_view highway) {
   static const std::map<std::string_view, StreetKind> kKinds = {
-      {"motorway", {12.0, true}},      {"trunk", {12.0, true}},        {"primary", {11.0, true}},
-      {"secondary", {10.0, true}},     {"tertiary", {9.0, true}},      {"unclassified", {8.0, true}},
-      {"residential", {8.0, true}},    {"living_street", {7.0, true}}, {"road", {8.0, true}},
-      {"motorway_link", {7.0, true}},  {"trunk_link", {7.0, true}},    {"primary_link", {7.0, true}},
-      {"secondary_link", {7.0, true}}, {"tertiary_link", {7.0, true}}, {"service", {4.0, false}},
-      {"pedestrian", {6.0, false}},    {"track", {3.0, false}},        {"bridleway", {2.0, false}},
-      {"footway", {2.0, false}},       {"cycleway", {2.5, false}},     {"path", {1.5, false}},
-      {"steps", {2.0, false}},         {"corridor", {2.0, false}},     {"busway", {7.0, true}}};
+      {"motorway", {12.0, true}},      {"trunk", {12.0, true}},         {"primary", {11.0, true}},
+      {"secondary", {10.0, true}},     {"tertiary", {9.0, true}},       {"unclassified", {8.0, true}},
+      {"residential", {8.0, true}},    {"living_street", {7.0, true}},  {"road", {8.0, true}},
+      {"motorway_link", {7.0, true}},  {"trunk_link", {7.0, true}},     {"primary_link", {7.0, true}},
+      {"secondary_link", {7.0, true}}, {"tertiary_link", {7.0, true}},  {"service", {4.0, false}},
+      {"pedestrian", {6.0, false}},    {"track", {3.0, false}},         {"bridleway", {2.0, false}},
+      {"footway", {2.0, false}},       {"cycleway", {2.5, false}},      {"path", {1.5, false}},
+      {"steps", {2.0, false}},         {"busway", {7.0, true}},         {"raceway", {8.0, false}},
+      {"bus_guideway", {4.0, false}},  {"emergency_bay", {3.0, false}}, {"escape", {6.0, false}}};
   const auto found = kKinds.find(highway);
   return found == kKinds.end() ? nullptr : &found->second;
+}
+
+/// Returns whether ways of a kind are not on the ground, or do not exist.
+bool is_no_street(std::string_view highway) {
+  static const std::set<std::string_view> kNoStreets = {
+      "abandoned", "construction", "corridor", "disused", "elevator",  "ladder",   "no",         "planned",
+      "platform",  "proposed",     "razed",    "removed", "rest_area", "services", "via_ferrata"};
+  return kNoStreets.contains(highway);
 }
 
 Vector2d right_of(const Vector2d& along) { return Vector2d(-along.y(), along.x()).normalized(); }
@@ -82,7 +92,11 @@ std::optional<Street> street_of(const OsmLine& line, const LocalPlane& plane, st
   const TagReader tags(line.name, line.tags, faults);
   const StreetKind* const kind = kind_of(tags.text("highway"));
   const std::string_view tunnel = tags.text("tunnel");
-  if (kind == nullptr || (!tunnel.empty() && tunnel != "no")) return {};
+  if (is_no_street(tags.text("highway")) || (!tunnel.empty() && tunnel != "no")) return {};
+  if (kind == nullptr) {
+    tags.report("highway", "it is not drawn");
+    return {};
+  }
   if (tags.text("area") == "yes") {
     faults.push_back(line.name + ": an area with 'highway' is not drawn");
     return {};
@@ -90,8 +104,7 @@ std::optional<Street> street_of(const OsmLine& line, const LocalPlane& plane, st
   Street street{line.name, {}, kind->width_m, kind->has_lanes};
   for (const GeoPoint& place : line.points) street.line_NE.push_back(plane.p_NE(place));
   constexpr double kMinWidthM = 0.5, kMaxWidthM = 60.0;
-  if (const std::optional<double> width_m = tags.length_m("width"))
-    street.width_m = std::clamp(*width_m, kMinWidthM, kMaxWidthM);
+  street.width_m = tags.length_m("width", kMinWidthM, kMaxWidthM).value_or(street.width_m);
   return street;
 }
 

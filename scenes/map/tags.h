@@ -19,12 +19,16 @@ class TagReader {
   /// Returns the text of a tag; empty without the tag.
   std::string_view text(const std::string& key) const;
 
-  /// Returns a length of at least 0: "12", "12.5 m", "40 ft" or 12'6", m [OSM3D2024] sec. on units; nullopt without the
-  /// tag.
-  std::optional<double> length_m(const std::string& key) const;
+  /// Returns a length: "12", "12.5 m", "40 ft" or 12'6", m [OSM3D2024] sec. on units; nullopt without the tag.
+  /// @param at_least, at_most  valid lengths, m.
+  std::optional<double> length_m(const std::string& key, double at_least, double at_most) const;
 
-  /// Returns a number of at least 0 without a unit; nullopt without the tag.
-  std::optional<double> number(const std::string& key) const;
+  /// Returns a number from 0 to `at_most` without a unit; nullopt without the tag.
+  std::optional<double> number(const std::string& key, double at_most) const;
+
+  /// Returns a direction, from north to east: a number of degrees or a point of the compass, such as NNE, deg; nullopt
+  /// without the tag.
+  std::optional<double> direction_deg(const std::string& key) const;
 
   /// Reports the tag: "way 12: height='abc': <valid>".
   void report(const std::string& key, std::string_view valid) const;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scenes/map/building_mesh.h"
+#include "scenes/map/fault_lines.h"
 #include "scenes/map/ground_mesh.h"
 #include "scenes/map/map_files.h"
 #include "scenes/map/map_trees.h"
@@ -43,17 +44,18 @@ class NearObjects {
 
   /// Returns whether points are within the radius, and notes them or counts their object.
   bool takes(const std::vector<Vector2d>& points_NE) {
-    for (const Vector2d& p : points_NE) {
-      if (p.cwiseAbs().maxCoeff() > radius_m_) {
-        ++left_out_;
-        return false;
-      }
+    const auto is_near = [&](const Vector2d& p) { return p.cwiseAbs().maxCoeff() <= radius_m_; };
+    if (!std::ranges::all_of(points_NE, is_near)) {
+      ++left_out_;
+      return false;
     }
     for (const Vector2d& p : points_NE) bounds_NE_.extend(p);
     return true;
   }
 
   int left_out() const { return left_out_; }
+  /// Returns the maximum distance of an object from the origin, north or east.
+  double extent_m() const { return bounds_NE().min().cwiseAbs().cwiseMax(bounds_NE().max()).maxCoeff(); }
   Eigen::AlignedBox2d bounds_NE() const {
     constexpr double kMarginM = 20.0;
     Eigen::AlignedBox2d box = bounds_NE_;
@@ -84,12 +86,36 @@ std::string summary(const MapConfig& config, const std::vector<map::MapBuilding>
   return line;
 }
 
-map::Ground ground_of(const MapConfig& config, const map::LocalPlane& plane) {
+/// Reads the terrain within the radius, at most some distance beyond the objects, since a smaller area has more of the
+/// file's samples. @param extent_m  of the objects. @param[out] remarks  receives a line if the terrain has fewer
+/// samples than the file, or unusable ones.
+map::Ground ground_of(const MapConfig& config, const map::LocalPlane& plane, double extent_m,
+                      std::vector<std::string>& remarks) {
+  constexpr double kBeyondObjectsM = 2e3;
   if (config.terrain.empty()) return {};
+  const double radius_m = std::min(config.radius_m, extent_m + kBeyondObjectsM);
   return read_file("terrain", config.terrain, [&] {
-    return map::Ground(map::read_heights(config.terrain, plane.bounds(config.radius_m)), plane,
-                       config.origin.altitude_m);
+    const map::HeightSamples samples = map::read_heights(config.terrain, plane.bounds(radius_m));
+    char text[160];
+    if (samples.stride > 1) {
+      std::snprintf(text, sizeof text, "every %d. sample is used; the others are up to %.2f m from the surface",
+                    samples.stride, samples.skipped_error_m);
+      remarks.push_back("'" + config.terrain + "': " + text + "; a smaller scene.radius uses more");
+    }
+    if (samples.absurd_count > 0)
+      remarks.push_back("'" + config.terrain + "': " + std::to_string(samples.absurd_count) +
+                        " samples have heights that do not exist on Earth; they are holes");
+    return map::Ground(samples, plane, config.origin.altitude_m);
   });
+}
+
+/// Reports the streets that lie partly outside the terrain.
+void report_holes(const std::vector<map::Street>& streets, const map::Ground& ground,
+                  std::vector<std::string>& faults) {
+  for (const map::Street& street : streets) {
+    if (!ground.lowest_m(street.line_NE))
+      faults.push_back(street.name + ": drawn in part, since the terrain has no height at some of its points");
+  }
 }
 
 }  // namespace
@@ -101,7 +127,6 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const map::LocalPlane plane({config.origin.latitude_rad * kDegPerRad, config.origin.longitude_rad * kDegPerRad});
   map::OsmObjects objects = read_file("osm", config.osm, [&] { return map::read_osm(config.osm); });
-  const map::Ground ground = ground_of(config, plane);
 
   MapContents contents;
   std::vector<std::string>& faults = objects.faults;
@@ -122,6 +147,8 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   std::vector<map::MapTree> trees = map::trees_of(objects, plane, derived_seed(seed, kTownTreeStream), faults);
   std::erase_if(trees, [&](const map::MapTree& tree) { return !near.takes({tree.p_NE}); });
   contents.remarks.push_back(summary(config, buildings, streets, trees.size(), near.left_out()));
+  const map::Ground ground = ground_of(config, plane, near.extent_m(), contents.remarks);
+  report_holes(streets, ground, faults);
 
   map::TownTextures town =
       map::town_textures(static_cast<int>(config.texture_size_px), derived_seed(seed, kTownImageStream));
@@ -142,7 +169,7 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   scene.meshes.push_back(mesh.finish());
   map::add_traffic(streets, ground, town, config.vehicles, config.vehicle_speed_mps, derived_seed(seed, kTrafficStream),
                    scene.movers);
-  std::ranges::move(faults, std::back_inserter(contents.remarks));
+  std::ranges::move(map::one_line_each(faults), std::back_inserter(contents.remarks));
   return contents;
 }
 

@@ -6,11 +6,9 @@
 #include <numbers>
 
 #include "scenes/map/building_body.h"
+#include "scenes/map/fault_lines.h"
 #include "scenes/map/footprint_shape.h"
-#include "scenes/map/ground.h"
-#include "scenes/map/streets.h"
 #include "scenes/map/tags.h"
-#include "scenes/map/traffic.h"
 
 namespace hedgehop::scenes::map {
 namespace {
@@ -42,11 +40,17 @@ TEST(LocalPlane, BoundsContainTheRadius) {
   EXPECT_LT(plane.p_NE(bounds.southwest).maxCoeff(), -5000.0);
 }
 
+TEST(LocalPlane, TheOppositeSideOfTheEarthIsFarAway) {
+  const LocalPlane plane(kOrigin);
+  for (const GeoPoint& place : {GeoPoint{-47.0, -172.0}, {-46.999, -172.001}, {90.0, 0.0}, {0.0, 8.0}})
+    EXPECT_GT(plane.p_NE(place).norm(), 1e6);
+}
+
 /// Reads one tag as a length.
 std::optional<double> length_m(const std::string& text, Lines& faults) {
   const std::string name = "way 1";
   const Tags tags{{"height", text}};
-  return TagReader(name, tags, faults).length_m("height");
+  return TagReader(name, tags, faults).length_m("height", 0.1, 1500.0);
 }
 
 TEST(MapTags, LengthsHaveMetersOrFeet) {
@@ -60,12 +64,41 @@ TEST(MapTags, LengthsHaveMetersOrFeet) {
 }
 
 TEST(MapTags, OtherLengthsAreReportedWithTheId) {
-  for (const std::string text : {"tall", "-3", "12,5", "3 storeys", "", "1e9", "nan"}) {
+  for (const std::string text :
+       {"tall", "-3", "12,5", "3 storeys", "", "1e9", "nan", "inf", "0", "1501", "99999999999999999999", "0x10"}) {
     Lines faults;
     EXPECT_EQ(length_m(text, faults), std::nullopt);
     EXPECT_THAT(faults, ElementsAre("way 1: height='" + text +
-                                    "' cannot be read; valid: a length in m, such as 12.5, or in feet, such as 40 ft"));
+                                    "' cannot be read; valid: 0.1 to 1500 m, such as 12.5, or in feet, such as 40 ft"));
   }
+}
+
+TEST(MapTags, ReportsFitIntoOneLine) {
+  Lines faults;
+  EXPECT_EQ(length_m("a\nb\x1b" + std::string(1000, 'c'), faults), std::nullopt);
+  EXPECT_EQ(faults.at(0).find_first_of("\n\x1b"), std::string::npos);
+  EXPECT_LT(faults[0].size(), 200u);
+}
+
+TEST(MapTags, DirectionsAreDegreesOrPointsOfTheCompass) {
+  const std::string name = "way 1";
+  Lines faults;
+  const auto direction_deg = [&](const std::string& text) {
+    const Tags tags{{"roof:direction", text}};
+    return TagReader(name, tags, faults).direction_deg("roof:direction");
+  };
+  EXPECT_EQ(direction_deg("117.5"), 117.5);
+  EXPECT_EQ(direction_deg("N"), 0.0);
+  EXPECT_EQ(direction_deg("SW"), 225.0);
+  EXPECT_EQ(direction_deg("WNW"), 292.5);
+  EXPECT_THAT(faults, IsEmpty());
+  for (const std::string text : {"-1", "361", "north", ""}) EXPECT_EQ(direction_deg(text), std::nullopt);
+  EXPECT_EQ(faults.size(), 4u);
+}
+
+TEST(MapFaults, EachObjectHasOneLine) {
+  EXPECT_THAT(one_line_each({"way 1: a", "node 1: b", "way 1: c", "way 1: a", "way 12: d: e"}),
+              ElementsAre("way 1: a; c", "node 1: b", "way 12: d: e"));
 }
 
 /// Returns the area of a rectangle, of about 20 m by 10 m, with tags.
@@ -99,6 +132,12 @@ TEST(MapBuildings, TagsThatCannotBeReadAreReportedAndReplaced) {
   EXPECT_EQ(building({{"roof:shape", "onion"}}, faults).roof, RoofShape::flat);
   EXPECT_EQ(building({{"height", "3"}, {"min_height", "4"}}, faults).min_height_m, 0.0);
   EXPECT_EQ(faults.size(), 3u);
+  for (const Tags& tags : {Tags{{"building:levels", "-2"}}, Tags{{"building:levels", "2000"}}, Tags{{"height", "-4"}},
+                           Tags{{"height", "nan"}}, Tags{{"height", "8849"}}}) {
+    Lines own;
+    EXPECT_EQ(building(tags, own).height_m, 6.0);
+    EXPECT_EQ(own.size(), 1u);
+  }
 }
 
 double volume_m3(const mesh::Polyhedron& body) {
@@ -167,63 +206,28 @@ TEST(MapBuildings, CornersOnALineAreNoCorners) {
   EXPECT_THAT(simplified({{0, 0}, {10, 0}, {20, 0}}), IsEmpty());
 }
 
-/// Heights of a plane on a grid in degrees, in a file with any order of rows.
-HeightSamples plane_samples(bool south_first) {
-  HeightSamples samples{.rows = 41, .columns = 31, .samples = {}};
-  const LocalPlane plane(kOrigin);
-  for (int row = 0; row < samples.rows; ++row) {
-    for (int column = 0; column < samples.columns; ++column) {
-      const double step = south_first ? row - 20 : 20 - row;
-      const GeoPoint place{kOrigin.latitude_deg + 1e-4 * step, kOrigin.longitude_deg + 1e-4 * (column - 15)};
-      const Vector2d p_NE = plane.p_NE(place);
-      samples.samples.push_back({place, 500.0 + 0.1 * p_NE.x() - 0.2 * p_NE.y()});
-    }
+TEST(MapBuildings, OutlinesWithoutAUsableAreaAreLeftOutAndReported) {
+  const MapBuilding flat{.name = "way 1", .footprints = {}, .height_m = 9.0};
+  PlanRing star;  // closed, with 6000 corners
+  for (int i = 0; i < 6000; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 6000.0, radius_m = i % 2 == 0 ? 50.0 : 40.0;
+    star.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle));
   }
-  return samples;
-}
-
-TEST(MapGround, APlaneInDegreesIsAPlaneInTheMap) {
-  for (const bool south_first : {false, true}) {
-    const Ground ground(plane_samples(south_first), LocalPlane(kOrigin), {});
-    for (const Vector2d& p_NE : {Vector2d(0, 0), Vector2d(31.3, -77.7), Vector2d(-150.2, 60.9), Vector2d(200.1, 99.0)})
-      EXPECT_NEAR(ground.altitude_m(p_NE).value(), 0.1 * p_NE.x() - 0.2 * p_NE.y(), 1e-6) << p_NE.transpose();
-    EXPECT_EQ(ground.altitude_m({300.0, 0.0}), std::nullopt);
+  for (const Footprint& footprint : {Footprint{{{0, 0}, {10, 0}, {20, 0}}, {}},
+                                     Footprint{{{0, 0}, {1e-4, 0}, {0, 1e-4}}, {}}, Footprint{star, {}}}) {
+    Lines faults;
+    EXPECT_TRUE(body_of(footprint, flat, faults).hulls.empty());
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_THAT(faults[0], testing::StartsWith("way 1: left out, since its outline has "));
   }
 }
 
-TEST(MapGround, TheOriginMayHaveAnAltitudeOfItsOwn) {
-  const Ground ground(plane_samples(false), LocalPlane(kOrigin), 490.0);
-  EXPECT_NEAR(ground.altitude_m({0, 0}).value(), 10.0, 1e-9);
-}
-
-TEST(MapStreets, OnlyStreetsOnTheGroundAreDrawn) {
-  const LocalPlane plane(kOrigin);
+TEST(MapBuildings, AnOutlineThatTouchesItselfIsReported) {
+  const MapBuilding flat{.name = "way 1", .footprints = {}, .height_m = 9.0};
   Lines faults;
-  const auto street = [&](Tags tags) {
-    return street_of({"way 2", std::move(tags), {{47.0, 8.0}, {47.001, 8.0}}}, plane, faults);
-  };
-  EXPECT_EQ(street({{"highway", "residential"}, {"width", "6.5"}}).value().width_m, 6.5);
-  EXPECT_FALSE(street({{"highway", "proposed"}}));
-  EXPECT_FALSE(street({{"highway", "primary"}, {"tunnel", "yes"}}));
-  EXPECT_THAT(faults, IsEmpty());
-  EXPECT_FALSE(street({{"highway", "pedestrian"}, {"area", "yes"}}));
-  EXPECT_THAT(faults, ElementsAre("way 2: an area with 'highway' is not drawn"));
-}
-
-TEST(MapTraffic, CarsStayInTheRightLaneOnTheGround) {
-  const Ground ground(plane_samples(false), LocalPlane(kOrigin), {});
-  const std::vector<Street> streets{{"way 2", {{-200, 0}, {200, 0}}, 8.0, true},
-                                    {"way 3", {{0, 0}, {30, 0}}, 8.0, true}};
-  std::vector<Mover> movers;
-  add_traffic(streets, ground, {}, 5, 10.0, 1, movers);
-  ASSERT_EQ(movers.size(), 1u);  // the other street is too short
-  for (const double t_s : {0.0, 3.3, 20.0, 100.0}) {
-    const Eigen::Vector3d p_W = p_WM(movers[0].motion, t_s), v_W = v_WM(movers[0].motion, t_s);
-    EXPECT_NEAR(-p_W.z(), 0.1 * p_W.x() - 0.2 * p_W.y() + kStreetLiftM, 1e-6);
-    EXPECT_NEAR(std::abs(p_W.y()), 2.0, 1e-9);
-    EXPECT_GT(v_W.norm(), 5.9);
-    EXPECT_LT(v_W.norm(), 10.1);
-  }
+  const Footprint far_hole{{{0, 0}, {20, 0}, {20, 10}, {0, 10}}, {{{40, 0}, {40, 5}, {45, 5}, {45, 0}}}};
+  body_of(far_hole, flat, faults);
+  EXPECT_THAT(faults, ElementsAre("way 1: its outline touches itself, so its roof is not complete"));
 }
 
 }  // namespace
