@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenes/worlds/map.h"
 #include "sim/fields/quantities.h"
 #include "sim/libm/random.h"
 #include "sim/scenario/rig.h"
@@ -48,6 +49,7 @@ Cameras::Cameras(const RigConfig& rig, const Ticks& ticks, const scenes::Scene& 
                  uint64_t seed, std::span<const FailureConfig> failures)
     : ticks_(ticks),
       renderer_(renderer),
+      movers_are_spread_(scene.name == scenes::worlds::MapConfig::kName),  // other scenes keep the images of 0.2
       first_mover_label_(scenes::first_mover_label(scene)),
       failures_(failures.begin(), failures.end()) {
   for (const scenes::Mover& mover : scene.movers) movers_.push_back({mover.motion, scenes::reach_m(mover)});
@@ -141,8 +143,9 @@ cv::Mat Cameras::moving(size_t camera, const Instant& now) const {
   return image(camera, ImageChannel::labels, now, now) >= first_mover_label_;
 }
 
-/// Returns a bound on the image speed from the camera's rotation and from objects that pass at the minimum distance. It
-/// holds at the optical axis; off the axis of a pinhole, rotations are faster.
+/// Returns a bound on the image speed from the camera's rotation and from objects that pass at the minimum distance;
+/// movers of a map pass at their own distance. It holds at the optical axis; off the axis of a pinhole, rotations are
+/// faster.
 double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
   const avoidance::MountedCamera& mounted = truly_mounted_[camera];
   const BodyMotion& body = now.body;
@@ -151,9 +154,19 @@ double Cameras::image_speed_pxps(size_t camera, const Instant& now) const {
     mover_mps = std::max(mover_mps, scenes::max_speed_mps(motion, reach_m, seconds(now.t_ns)));
   }
   const Eigen::Vector3d v_WC_W = body.v_WB_W + body.X_WB.linear() * body.w_WB_B.cross(mounted.X_BC.translation());
-  const double passing_mps = v_WC_W.norm() + mover_mps;
-  const double passing_radps =
-      passing_mps > 0.0 ? passing_mps / body.clearance_m : 0.0;  // infinite if the clearance is unknown
+  const auto turn_radps = [](double passing_mps, double distance_m) {
+    return passing_mps > 0.0 ? passing_mps / distance_m : 0.0;  // infinite if the clearance is unknown
+  };
+  double passing_radps = turn_radps(v_WC_W.norm() + mover_mps, body.clearance_m);
+  if (movers_are_spread_) {
+    const Eigen::Vector3d p_WC = body.X_WB * mounted.X_BC.translation();
+    passing_radps = turn_radps(v_WC_W.norm(), body.clearance_m);
+    for (const auto& [motion, reach_m] : movers_) {
+      const double t_s = seconds(now.t_ns), distance_m = (scenes::p_WM(motion, t_s) - p_WC).norm() - reach_m;
+      const double speed_mps = v_WC_W.norm() + scenes::max_speed_mps(motion, reach_m, t_s);
+      passing_radps = std::max(passing_radps, turn_radps(speed_mps, std::max(distance_m, body.clearance_m)));
+    }
+  }
   return (body.w_WB_B.norm() + passing_radps) / pixel_angle_rad(mounted.model);
 }
 

@@ -101,6 +101,7 @@ class Cameras {
   std::vector<int64_t> periods_;  ///< ticks
   std::vector<avoidance::MountedCamera> mounted_, truly_mounted_;
   std::vector<std::pair<scenes::Motion, double>> movers_;  ///< with the reach of their solids, m
+  bool movers_are_spread_;                                 ///< over kilometers: each has an image speed of its own
   int first_mover_label_;
   std::vector<Imperfections> imperfections_;
   std::vector<Shutter> shutters_;

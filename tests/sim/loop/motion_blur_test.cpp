@@ -57,5 +57,29 @@ TEST(MotionBlur, DiffersFromThatOf64MomentsByLessThanNoiseHides) {
   }
 }
 
+/// A scene named as a map, and an object that moves sideways behind the camera of `exposed`.
+Blur passed_by(double distance_m) {
+  Blur blur{"map", scenes::make_scene(scenes::worlds::TreeConfig{}, 1), {-12.0, 0.0, -5.0}, {3.0, 0.5, 0.0}, 5.0};
+  blur.scene.name = "map";
+  scenes::Mover& mover =
+      blur.scene.movers.emplace_back(scenes::Mover{.name = "car", .mesh = {}, .solids = {}, .motion = {}});
+  mover.mesh.material = "opaque";
+  mover.mesh.instances.resize(1);
+  mover.motion = scenes::WaypointMotion{.points = {{-12.0 - distance_m, -20.0, 5.0}, {-12.0 - distance_m, 20.0, 5.0}},
+                                        .speed_mps = 20.0};
+  return blur;
+}
+
+TEST(MotionBlur, MoversOfAMapCountAtTheirOwnDistance) {
+  const auto image = [](const Blur& blur) { return exposed(blur, Eigen::Vector3d::Zero(), 8, blur.clearance_m, 1); };
+  Blur still = passed_by(1000.0);
+  still.scene.movers.clear();
+  EXPECT_EQ(cv::norm(image(still), image(passed_by(1000.0)), cv::NORM_INF), 0.0);  // as many moments
+  EXPECT_GT(cv::norm(image(still), image(passed_by(5.0)), cv::NORM_INF), 0.0);
+  Blur elsewhere = passed_by(1000.0);
+  elsewhere.scene.name = "tree";
+  EXPECT_GT(cv::norm(image(still), image(elsewhere), cv::NORM_INF), 0.0);  // as in 0.2
+}
+
 }  // namespace
 }  // namespace hedgehop::sim
