@@ -26,6 +26,8 @@ struct LocalMapConfig {
   vision::stereo::StereoMatcherConfig stereo{
       .method = vision::stereo::StereoMatcherConfig::Method::block, .disparities_px = 64, .block_px = 11};
   bool sky = true;
+  bool lines = true;
+  bool coarse = true;
   double noise_px = 0.5;
   double voxel_m = 0.3;
   double memory_s = 30.0;
@@ -51,6 +53,11 @@ void describe(Visitor& v, fields::ConfigOf<LocalMapConfig> auto& c) {
   v("sky", c.sky,
     {.meaning =
          "whether sky above a horizon of far ground is recognized as free; otherwise unmatched pixels are unknown"});
+  v("lines", c.lines,
+    {.meaning =
+         "whether thin lines, such as branches and poles, are matched in addition to blocks; for depth: stereo"});
+  v("coarse", c.coarse,
+    {.meaning = "whether images that are largely unmatched are matched at lower resolutions, too; for depth: stereo"});
   v("noise", c.noise_px,
     {.unit = "px",
      .above = 0.0,

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <ranges>
 
 #include "avoidance/heading.h"
 #include "vision/mapping/depth_blocks.h"
 #include "vision/mapping/find_plain.h"
+#include "vision/mapping/ground_plane.h"
 
 namespace hedgehop::avoidance::local_map {
 namespace {
 
 using stereo::DisparitySource;
+using vision::mapping::DepthBlock;
 using vision::mapping::OccupancyMap;
 
 constexpr int kLayers = 12, kLayersOfLevels = 32;  // layers of the map with one altitude, and with an altitude band
@@ -34,7 +37,12 @@ template <class CameraPair>
 std::vector<CameraPair> pairs_of(const LocalMapConfig& config, const Setup& setup) {
   std::vector<CameraPair> pairs;
   const auto add = [&](const std::string& pair) {
-    pairs.push_back({{config.depth, DisparitySource::Grey::unused, config.stereo, setup, pair}, {}});
+    pairs.push_back({{config.depth, DisparitySource::Grey::unused, config.stereo, setup, pair},
+                     vision::stereo::CoarseMatcher(config.stereo),
+                     {},
+                     {},
+                     {},
+                     {}});
   };
   add("");
   for (const std::string& pair : config.pairs) add(pair);
@@ -59,6 +67,26 @@ int half_window_px(const LocalMapConfig& config) {
       break;
   }
   return 0;
+}
+
+/// Returns the rows of an image in which lines are searched: those within 10 degrees of the horizon in any column. They
+/// show altitudes up to 0.7 m off beyond 4 m.
+cv::Range rows_of_map(const DisparitySource& source, const Eigen::Vector3d& down_C) {
+  constexpr double kSine = 0.17;
+  const cv::Size image = source.image();
+  cv::Range rows(image.height, 0);
+  for (int v = 0; v < image.height; ++v) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const int u : {0, image.width / 2, image.width - 1}) {
+      const double sine = down_C.dot(source.geometry().ray_at_unit_depth({u, v}).normalized());
+      low = std::min(low, sine);
+      high = std::max(high, sine);
+    }
+    if (low > kSine || high < -kSine) continue;
+    rows.start = std::min(rows.start, v);
+    rows.end = v + 1;
+  }
+  return rows;
 }
 
 }  // namespace
@@ -130,24 +158,51 @@ bool Surroundings::looks_along(double azimuth_rad) const {
   });
 }
 
-/// Adds an image to the map, except for moving obstacles.
-void Surroundings::integrate(CameraPair& pair, const NavigationState& navigation, double t_s) {
-  constexpr int kSameSegment16 = 32, kSpeckPx = 100;
+/// Computes the blocks of a disparity image, except for thin lines.
+/// @param sigma16  of the disparities; may be empty. @param down_C  unit vector of the vertical.
+/// @param height_m  of the camera above level ground.
+void Surroundings::build_blocks(CameraPair& pair, const cv::Mat& sigma16, const Eigen::Vector3d& down_C,
+                                double height_m) const {
+  constexpr double kMinHeightM = 0.5;
   constexpr double kUpright = 0.7;  // minimum z component of the y axis of a camera with ground below and sky above
+  const stereo::DisparitySource& source = pair.source;
+  pair.blocks.build(source.disparity16(), source.grey(), half_window_px(config_), sigma16);
+  if (source.grey().empty() || down_C.y() <= kUpright) return;
+  // Depth from motion has another error at every pixel, which planes of the ground ignore.
+  const bool is_pair = config_.depth == DisparitySource::From::stereo;
+  if (config_.sky) {
+    const vision::mapping::GroundPlane ground{source.geometry().disparity16(std::max(height_m, kMinHeightM)) * down_C};
+    vision::mapping::find_sky(source.geometry(), down_C, pair.blocks, is_pair ? &ground : nullptr);
+  }
+  if (is_pair) {
+    vision::mapping::find_plain(source.geometry(), down_C, source.disparity16(), source.grey(), pair.blocks);
+  }
+}
+
+/// Adds an image to the map, except for moving obstacles.
+void Surroundings::integrate(CameraPair& pair, OccupancyMap::Instant instant, const NavigationState& navigation,
+                             double t_s) {
+  constexpr int kSameSegment16 = 32, kSpeckPx = 100;
+  constexpr double kMuchUnknown = 0.25;  // share of the image
   stereo::DisparitySource& source = pair.source;
   const Eigen::Isometry3d X_WC = Eigen::Translation3d(navigation.p_WB_est) * navigation.q_WB_est * source.X_BC();
+  const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
+  const double height_m = navigation.height_above_ground_m + navigation.p_WB_est.z() - X_WC.translation().z();
   const bool matches = config_.depth != DisparitySource::From::camera;
   if (matches) vision::stereo::remove_specks(source.disparity16(), kSameSegment16, kSpeckPx);
-  pair.blocks.build(source.disparity16(), source.grey(), half_window_px(config_), source.sigma16());
-  const Eigen::Vector3d down_C = X_WC.linear().row(2).transpose();
-  if (!source.grey().empty() && down_C.y() > kUpright) {
-    if (config_.sky) vision::mapping::find_sky(source.geometry(), down_C, pair.blocks);
-    // Depth from motion has another error at every pixel, which the fit of the ground ignores.
-    if (config_.depth == DisparitySource::From::stereo) {
-      vision::mapping::find_plain(source.geometry(), down_C, source.disparity16(), source.grey(), pair.blocks);
+  build_blocks(pair, source.sigma16(), down_C, height_m);
+  if (config_.depth == DisparitySource::From::stereo) {
+    if (config_.lines) {
+      static_assert(vision::stereo::LineMatcher::kCellPx == vision::mapping::DepthBlocks::kBlockPx);
+      pair.lines.match(source.grey(), source.right(), source.disparity16(), rows_of_map(source, down_C), pair.lines16);
     }
+    if (config_.coarse && pair.blocks.share(DepthBlock::Kind::unknown) > kMuchUnknown &&
+        pair.coarse.fill(source.grey(), source.right(), config_.noise_px, source.disparity16(), pair.sigma16) > 0) {
+      build_blocks(pair, pair.sigma16, down_C, height_m);
+    }
+    if (config_.lines) pair.blocks.add_lines(pair.lines16);
   }
-  map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s));
+  map_.integrate(pair.blocks, source.geometry(), X_WC, predicted_discs(t_s), instant);
   // Depth from motion assumes that the world does not move.
   if (config_.depth != DisparitySource::From::motion) track_moving_obstacles(t_s, pair, X_WC);
 }
@@ -157,8 +212,12 @@ void Surroundings::see(const NavigationState& navigation, double t_s) {
   center_W.z() = height_W_;
   map_.move(center_W);
   fade(navigation, t_s);
-  for (CameraPair& pair : pairs_) {
-    if (pair.fresh) integrate(pair, navigation, t_s);
+  // The first pair last, because it sees sky, and other pairs may see lines that it cannot match.
+  OccupancyMap::Instant instant = OccupancyMap::Instant::next;
+  for (CameraPair& pair : pairs_ | std::views::reverse) {
+    if (!pair.fresh) continue;
+    integrate(pair, instant, navigation, t_s);
+    instant = OccupancyMap::Instant::same;
   }
   const double heading = heading_rad(navigation.q_WB_est);
   for (const HullDiscs::Disc& disc : sweep(hull_discs_, heading, heading, config_.voxel_m)) {

@@ -15,6 +15,8 @@
 #include "avoidance/stereo/disparity_source.h"
 #include "vision/mapping/depth_blocks.h"
 #include "vision/mapping/occupancy_map.h"
+#include "vision/stereo/coarse_matcher.h"
+#include "vision/stereo/line_matcher.h"
 
 namespace hedgehop::avoidance::local_map {
 
@@ -67,14 +69,20 @@ class Surroundings {
  private:
   struct CameraPair {
     stereo::DisparitySource source;
+    vision::stereo::CoarseMatcher coarse;
     vision::mapping::DepthBlocks blocks;
+    vision::stereo::LineMatcher lines;
+    cv::Mat lines16;     ///< disparity x 16 of the thin line in each block
+    cv::Mat sigma16;     ///< as that of the source, of a pair that was matched coarsely, too
     bool fresh = false;  ///< has an image that is not in the map yet
   };
 
   HeightRange band(double z_W) const;
   HeightRange between(double from_W, double to_W) const;
   void clear(const Eigen::Vector3d& p_W, double radius_m);
-  void integrate(CameraPair& pair, const NavigationState& navigation, double t_s);
+  void integrate(CameraPair& pair, vision::mapping::OccupancyMap::Instant instant, const NavigationState& navigation,
+                 double t_s);
+  void build_blocks(CameraPair& pair, const cv::Mat& sigma16, const Eigen::Vector3d& down_C, double height_m) const;
   void fade(const NavigationState& navigation, double t_s);
   const std::vector<vision::mapping::OccupancyMap::MovingDisc>& predicted_discs(double t_s);
   void remember_occupied(double t_s);

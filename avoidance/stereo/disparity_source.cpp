@@ -101,6 +101,7 @@ bool DisparitySource::match(std::span<const CameraFrame> frames) {
   if (!left || !right || left->t_ns != right->t_ns || left->t_ns <= t_ns_) return false;
   t_ns_ = left->t_ns;
   left->image.copyTo(grey_);
+  right->image.copyTo(right_grey_);
   matcher_.match(left->image, right->image, disparity16_);
   return true;
 }

@@ -41,8 +41,9 @@ class DisparitySource {
   /// @return whether they contain new images that were all exposed at one instant.
   bool update(std::span<const CameraFrame> frames, const NavigationState& navigation = {});
 
-  const cv::Mat& grey() const { return grey_; }    ///< CV_8UC1, the left image; empty if unused
-  cv::Mat& disparity16() { return disparity16_; }  ///< of the left image, as in vision/stereo/disparity.h
+  const cv::Mat& grey() const { return grey_; }         ///< CV_8UC1, the left image; empty if unused
+  const cv::Mat& right() const { return right_grey_; }  ///< CV_8UC1, the right image of a pair; otherwise empty
+  cv::Mat& disparity16() { return disparity16_; }       ///< of the left image, as in vision/stereo/disparity.h
   const cv::Mat& disparity16() const { return disparity16_; }
   /// CV_16SC1, 1-sigma error of the disparity x 16 at matched pixels; empty if it is not known pixel by pixel.
   const cv::Mat& sigma16() const { return sigma16_; }
@@ -65,7 +66,7 @@ class DisparitySource {
   Eigen::Isometry3d X_BC_ = Eigen::Isometry3d::Identity();
   cv::Size image_;
   int64_t t_ns_ = -1;  ///< of the last images
-  cv::Mat grey_, disparity16_, sigma16_, depth_m_;
+  cv::Mat grey_, right_grey_, disparity16_, sigma16_, depth_m_;
   std::optional<MotionDepth> motion_;
 };
 

@@ -130,13 +130,7 @@ bool is_lined(const cv::Mat& valleys, int row, int col) {
 }  // namespace
 
 void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px, const cv::Mat& sigma16) {
-  smeared_ = disparity16 < 0;
-  if (smear_px > 0) {
-    // Areas that contain a complete window of unmatched pixels, enlarged by half a window.
-    const auto square = [](int px) { return cv::Mat::ones(px, px, CV_8U); };
-    cv::erode(smeared_, smeared_, square(2 * smear_px + 1));
-    cv::dilate(smeared_, smeared_, square(4 * smear_px + 1));
-  }
+  stereo::find_smeared(disparity16, smear_px, smeared_);
   if (!grey.empty()) find_valleys(grey, valleys_);
   rows_ = disparity16.rows / kPx;
   cols_ = disparity16.cols / kPx;
@@ -148,6 +142,20 @@ void DepthBlocks::build(const cv::Mat& disparity16, const cv::Mat& grey, int sme
       if (grey.empty()) continue;
       read_grey(grey, row, col, at(row, col));
       at(row, col).lined = is_lined(valleys_, row, col);
+    }
+  }
+}
+
+void DepthBlocks::add_lines(const cv::Mat& lines16) {
+  constexpr int kSame16 = 16;  // difference of disparity of a line that the block matcher has found, too
+  for (int row = 0; row < std::min(rows_, lines16.rows); ++row) {
+    for (int col = 0; col < std::min(cols_, lines16.cols); ++col) {
+      DepthBlock& block = at(row, col);
+      const int16_t line16 = lines16.at<int16_t>(row, col);
+      if (line16 < 0 || line16 < block.near16 - kSame16) continue;
+      block.near16 = std::max(block.near16, line16);
+      block.sigma16 = -1;
+      block.thin = true;
     }
   }
 }

@@ -9,6 +9,8 @@
 
 namespace hedgehop::vision::mapping {
 
+struct GroundPlane;
+
 /// Depth of a square block of pixels in the left image.
 struct DepthBlock {
   enum class Kind : uint8_t {
@@ -29,6 +31,7 @@ struct DepthBlock {
   uint8_t range = 0;    ///< range of the mean grey of its four quarters
   bool lined = false;   ///< contains a thin object darker than both sides
   bool stands = false;  ///< of plain: whether a surface at foot16 is likely
+  bool thin = false;    ///< whether the nearest surface is a matched line
 };
 
 /// A disparity image in square blocks, each with its nearest surface. This gives a few thousand rays instead of a
@@ -46,6 +49,12 @@ class DepthBlocks {
   /// @param sigma16  CV_16SC1, 1-sigma error of the disparity x 16 at matched pixels, or empty if it is the same at
   /// all.
   void build(const cv::Mat& disparity16, const cv::Mat& grey, int smear_px, const cv::Mat& sigma16 = {});
+
+  /// Adds thin lines that are as near as the nearest surface of their block, or nearer. Their error is that of
+  /// a pair without `sigma16`.
+  /// @param lines16  CV_16SC1, disparity x 16 of the line in each block, negative without one. It may have fewer
+  /// blocks.
+  void add_lines(const cv::Mat& lines16);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
@@ -65,7 +74,7 @@ class DepthBlocks {
 /// world for every tilt of the camera. A block is sky if:
 /// - below the horizon predicted from the attitude, its column ends in ground matched at a horizontal distance of at
 /// least
-///   15 m, without gaps from the image's border;
+///   15 m, without gaps from the image's border, or next to the upper edge of a plain surface in front of it;
 /// - above that ground, no match in the column is closer than 15 m;
 /// - above all matches, the column is smooth and as bright as the sky in the same row of columns near ground at 25 m or
 ///   more. Without such columns there is no sky.
@@ -75,7 +84,9 @@ class DepthBlocks {
 /// different brightness; both remain unknown. A wall could rise at the end of the ground: `foot16` gives the minimum
 /// free distance of sky. Limitation: an untextured ceiling over far ground without sky next to it is taken for sky.
 /// Differs from [Andert2007] eq. (6) to (8), in which every bright pixel without texture is infinitely far.
-/// @param down_C  unit vector of the vertical in C. @return number of sky blocks found.
-int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks);
+/// @param down_C  unit vector of the vertical in C. @param ground  plane of level ground; without it, ground beyond
+/// plain surfaces is not recognized. @return number of sky blocks found.
+int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks,
+             const GroundPlane* ground = nullptr);
 
 }  // namespace hedgehop::vision::mapping

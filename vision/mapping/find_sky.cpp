@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/fields/order_statistics.h"
+#include "vision/mapping/ground_plane.h"
 #include "vision/mapping/upright_columns.h"
 
 namespace hedgehop::vision::mapping {
@@ -29,16 +30,48 @@ struct SkyRun {
   double foot_m;  ///< horizontal distance of the topmost ground and of objects on it
 };
 
-/// Examines a column upward from the ground below the horizon.
-std::optional<SkyRun> find_run(const UprightColumn& column, double focal_px) {
-  const double near_rad = kAttitudeRad + 0.5 * kBlockPx / focal_px;
+/// Searches upward for ground beyond a plain surface that hides the ground in front of it, such as a wall below a
+/// window: successive blocks matched on the plane of the ground, next to the upper edge of the surface.
+/// @param row  lowest row of the surface or of its foot. @return the first row of the ground; -1 if there is none.
+int ground_beyond(const stereo::StereoGeometry& geometry, const GroundPlane& ground, const UprightColumn& column,
+                  int row) {
+  constexpr int kEdgeRows = 3, kMinPlainRows = 3, kGroundRows = 4;
+  const int first = row;
+  int plain = 0;
+  for (int below = 0; row >= 0 && column.in_image(row); --row) {
+    const DepthBlock& block = column.at(row);
+    const bool is_plain =
+        block.near16 < 0 && block.range <= kSmooth && (plain == 0 || std::abs(block.grey - below) <= kSmooth);
+    if (!is_plain && (plain > 0 || first - row >= kEdgeRows)) break;
+    plain += is_plain;
+    below = block.grey;
+  }
+  if (plain < kMinPlainRows) return -1;
+  const auto is_ground = [&](int at) {
+    return at >= 0 && column.in_image(at) && column.at(at).kind == DepthBlock::Kind::matched &&
+           ground.contains(column.at(at), lower_border_ray(geometry, at, column.col(at)));
+  };
+  for (int edge = 0; edge < kEdgeRows && !is_ground(row); ++edge) --row;
+  for (int i = 0; i < kGroundRows; ++i) {
+    if (!is_ground(row - i)) return -1;
+  }
+  return row;
+}
+
+/// Examines a column upward from the ground below the horizon. @param ground  null if its plane is not known.
+std::optional<SkyRun> find_run(const stereo::StereoGeometry& geometry, const GroundPlane* ground,
+                               const UprightColumn& column) {
+  const double near_rad = kAttitudeRad + 0.5 * kBlockPx / geometry.focal_px;
   // Find the topmost block of the ground, which is matched from the image's border upward. A match beyond a gap may
   // be noise on a wall.
   const int lowest = column.lowest();
   int row = lowest, support = lowest + 1;
   for (; row >= 0 && column.in_image(row) && column.elevation(row) < near_rad; --row) {
     if (column.at(row).kind == DepthBlock::Kind::unknown) continue;
-    if (support - row > kGap + 1) return std::nullopt;
+    if (support - row > kGap + 1) {
+      row = ground ? ground_beyond(geometry, *ground, column, support - 1) : -1;
+      if (row < 0) return std::nullopt;
+    }
     support = row;
   }
   if (support > lowest || row < 0 || !column.in_image(row)) return std::nullopt;
@@ -102,10 +135,13 @@ std::vector<int> median_greys(int rows, const std::vector<SkyCandidate>& candida
 
 }  // namespace
 
-int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks) {
+int find_sky(const stereo::StereoGeometry& geometry, const Eigen::Vector3d& down_C, DepthBlocks& blocks,
+             const GroundPlane* ground) {
   const UprightColumns columns(geometry, down_C, blocks);
   std::vector<SkyCandidate> candidates;
-  for (const UprightColumn& column : columns.all()) candidates.push_back({column, find_run(column, geometry.focal_px)});
+  for (const UprightColumn& column : columns.all()) {
+    candidates.push_back({column, find_run(geometry, ground, column)});
+  }
   const std::vector<int> medians = median_greys(blocks.rows(), candidates);
   for (auto& [column, run] : candidates) {
     if (!run) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "vision/flow/wide_integers.h"
@@ -17,11 +18,13 @@ constexpr int kMinLogOdds = -9,
               kMaxLogOdds = 12;  // limits: a free voxel is no longer free after two hits and occupied after five
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
-// A thin object in front of the sky reduces the evidence for free space along its ray, beyond the range at which it
-// would be matched. After three images the voxels are unknown, but never occupied.
+// A thin object reduces the evidence for free space along its ray: within two sigma of its matched depth or, unmatched
+// in front of the sky, beyond the range at which it would be matched. After three images the voxels are unknown, but
+// not occupied.
 constexpr int kDoubt = 2;
 constexpr float kSurelyMatchedM = 4.0F;
-constexpr float kInDoubt = -1.0F;  // value of clear_m_ for blocks with a thin object
+// Bits of marks_.
+constexpr uint8_t kHitNow = 1, kDoubted = 2;
 // Maximum 1-sigma of depth of surfaces added to the map, less than a voxel, and of surfaces reported in hits().
 constexpr double kPlacedM = 0.25, kReportedM = 1.0;
 
@@ -72,7 +75,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapConfig& config) : config_(config) {
   const size_t count =
       static_cast<size_t>(config.across) * static_cast<size_t>(config.across) * static_cast<size_t>(config.layers);
   log_odds_.assign(count, 0);
-  hit_.assign(count, 0);
+  marks_.assign(count, 0);
 }
 
 OccupancyMap::Index OccupancyMap::index(const Eigen::Vector3d& p_W) const {
@@ -122,11 +125,15 @@ void OccupancyMap::move(const Eigen::Vector3d& center_W) {
 }
 
 void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                             const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving) {
+                             const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving, Instant instant) {
+  if (instant == Instant::next) {
+    for (const size_t slot : doubted_slots_) marks_[slot] = 0;
+    doubted_slots_.clear();
+  }
   find_clear(blocks, geometry);
   add_hits(blocks, geometry, X_WC, moving);
   add_misses(blocks, geometry, X_WC);
-  for (const size_t slot : hit_slots_) hit_[slot] = 0;
+  for (const size_t slot : hit_slots_) marks_[slot] &= kDoubted;
 }
 
 double OccupancyMap::noise_px(const DepthBlock& block) const {
@@ -134,15 +141,22 @@ double OccupancyMap::noise_px(const DepthBlock& block) const {
 }
 
 /// Computes the z in C up to which each block is free. It is limited by nearer surfaces in adjacent blocks, whose edges
-/// may be inside the block. Blocks with a thin object get kInDoubt.
+/// may be inside the block. Also computes the range in which a thin object may be.
 void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry) {
   const auto beyond16 = [&](const DepthBlock& block) { return kSigmas * noise_px(block) * stereo::kDisparityUnits; };
+  const auto z_m = [&](double d16) { return static_cast<float>(geometry.disparity16(1.0) / std::max(d16, 1.0)); };
   clear_m_.assign(static_cast<size_t>(blocks.rows() * blocks.cols()), 0.0F);
+  doubts_.assign(clear_m_.size(), {0.0F, 0.0F});
   for (int row = 0; row < blocks.rows(); ++row) {
     for (int col = 0; col < blocks.cols(); ++col) {
       const DepthBlock& block = blocks.at(row, col);
       float& clear_m = clear_m_[static_cast<size_t>(row * blocks.cols() + col)];
-      if (block.kind == DepthBlock::Kind::line) clear_m = kInDoubt;
+      Doubt& doubt = doubts_[static_cast<size_t>(row * blocks.cols() + col)];
+      if (block.kind == DepthBlock::Kind::line) {
+        doubt = {kSurelyMatchedM, std::numeric_limits<float>::max()};
+      } else if (block.thin) {
+        doubt = {z_m(block.near16 + beyond16(block)), z_m(block.near16 - beyond16(block))};
+      }
       if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky &&
           block.kind != DepthBlock::Kind::plain) {
         continue;
@@ -156,9 +170,9 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
           if (other16 >= 0) near16 = std::max(near16, other16 + beyond16(other));
         }
       }
-      double z_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / near16;
-      if (block.kind == DepthBlock::Kind::sky) z_m = std::min(z_m, config_.far_m);
-      clear_m = static_cast<float>(z_m);
+      double end_m = near16 < 0 ? config_.far_m : geometry.disparity16(1.0) / near16;
+      if (block.kind == DepthBlock::Kind::sky) end_m = std::min(end_m, config_.far_m);
+      clear_m = static_cast<float>(end_m);
     }
   }
 }
@@ -184,12 +198,12 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
       const Index voxel = index(p_W);
       if (!contains(voxel)) continue;
       const size_t at = slot(voxel);
-      if (hit_[at]) continue;
-      if (!assumed) hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
+      if ((marks_[at] & kHitNow) != 0) continue;
+      if (!assumed && !block.thin) hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       if (near16 < min_disparity16(block, kPlacedM)) continue;
       const auto holds = [&](const MovingDisc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
       if (std::ranges::any_of(moving, holds)) continue;
-      hit_[at] = 1;
+      marks_[at] |= kHitNow;
       hit_slots_.push_back(at);
       log_odds_[at] = static_cast<int8_t>(std::min(kMaxLogOdds, log_odds_[at] + kHit));
     }
@@ -224,12 +238,15 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
         if (i == turn) at -= static_cast<size_t>(n.y());
         const auto voxel = static_cast<size_t>(i);
         if (block[voxel] < 0) continue;
-        const float clear_m = clear_m_[static_cast<size_t>(block[voxel])];
+        const auto of = static_cast<size_t>(block[voxel]);
         int8_t& odds = log_odds_[at];
-        if (z_m[voxel] + half_m <= clear_m && !hit_[at]) {
+        if (z_m[voxel] + half_m <= clear_m_[of] && marks_[at] == 0) {
           odds = static_cast<int8_t>(std::max(kMinLogOdds, odds + kMiss));
-        } else if (clear_m == kInDoubt && z_m[voxel] > kSurelyMatchedM && odds < 0) {
-          odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
+        } else if (z_m[voxel] > doubts_[of].from_m && z_m[voxel] < doubts_[of].to_m) {
+          if (odds < 0) odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
+          if ((marks_[at] & kDoubted) != 0) continue;
+          marks_[at] |= kDoubted;
+          doubted_slots_.push_back(at);
         }
       }
     }

@@ -44,15 +44,19 @@ class OccupancyMap {
     Eigen::Vector2d p_W;
     double radius_m;
   };
+  /// Whether an image is of the same instant as the one before. Free space in it then does not outweigh a thin object
+  /// in the other image.
+  enum class Instant : uint8_t { next, same };
   /// Adds an image. @param X_WC  estimated pose of the left camera at exposure. @param moving  moving obstacles: their
   /// surfaces are not added to the map, because they would leave a trail.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
-                 std::span<const MovingDisc> moving = {});
+                 std::span<const MovingDisc> moving = {}, Instant instant = Instant::next);
   /// A surface point of the last image, including points too distant for the map.
   struct Hit {
     Eigen::Vector3d p_W;  ///< m
     bool was_free;        ///< whether its voxel was free before; a fixed obstacle does not appear in free space
   };
+  /// Without thin lines, which count as fixed: they are seen late, in space that was free.
   const std::vector<Hit>& hits() const { return hits_; }
   /// Moves all voxels one step toward unknown.
   void fade();
@@ -84,10 +88,15 @@ class OccupancyMap {
   OccupancyMapConfig config_;
   Index first_ = Index::Zero();
   std::vector<int8_t> log_odds_;  ///< in steps of 0.4; 0: unknown
-  std::vector<uint8_t> hit_;      ///< in this image
-  std::vector<size_t> hit_slots_;
+  std::vector<uint8_t> marks_;    ///< hit in this image; doubted in an image of this instant
+  std::vector<size_t> hit_slots_, doubted_slots_;
   std::vector<Hit> hits_;       ///< of hit_slots_
   std::vector<float> clear_m_;  ///< of each block
+  /// Range of z in C in which a thin object reduces the evidence for free space; empty if from >= to.
+  struct Doubt {
+    float from_m, to_m;
+  };
+  std::vector<Doubt> doubts_;  ///< of each block
 };
 
 }  // namespace hedgehop::vision::mapping

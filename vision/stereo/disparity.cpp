@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -116,6 +117,15 @@ int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px) {
     removed += run.end - run.begin;
   }
   return removed;
+}
+
+void find_smeared(const cv::Mat& disparity16, int half_window_px, cv::Mat& smeared) {
+  smeared = disparity16 < 0;
+  if (half_window_px <= 0) return;
+  // Areas that contain a complete window of unmatched pixels, enlarged by half a window.
+  const auto square = [](int px) { return cv::Mat::ones(px, px, CV_8U); };
+  cv::erode(smeared, smeared, square(2 * half_window_px + 1));
+  cv::dilate(smeared, smeared, square(4 * half_window_px + 1));
 }
 
 int mark_sky(const cv::Mat& grey, int texture, int brightness, SkyAmong among, cv::Mat& disparity16) {

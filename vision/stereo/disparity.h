@@ -35,6 +35,11 @@ void to_depth(const cv::Mat& disparity16, const StereoGeometry& geometry, cv::Ma
 /// @return number of pixels removed. Source: [Andert2007] sec. 3.3.1, eq. (5).
 int remove_specks(cv::Mat& disparity16, int difference16, int smallest_px);
 
+/// Marks pixels so close to an area without matches that their disparity may belong to the other surface: if one half
+/// of the matcher's window is untextured, the other half determines the match.
+/// @param half_window_px  half the side of the window, >= 0. @param smeared  CV_8UC1, 255 at such pixels, otherwise 0.
+void find_smeared(const cv::Mat& disparity16, int half_window_px, cv::Mat& smeared);
+
 /// Pixels that are tested for sky.
 enum class SkyAmong {
   unknown,  ///< as published: unmatched pixels

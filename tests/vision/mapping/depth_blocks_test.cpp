@@ -51,6 +51,19 @@ TEST(DepthBlocks, BlockWithFewMatchesIsUnknown) {
   EXPECT_EQ(blocks.at(0, 0).near16, 40);
 }
 
+TEST(DepthBlocks, LineNearerThanItsBlockIsTheNearestSurface) {
+  DepthBlocks blocks;
+  blocks.build(cv::Mat(8, 24, CV_16SC1, cv::Scalar(40)), {}, 0, cv::Mat(8, 24, CV_16SC1, cv::Scalar(32)));
+  blocks.add_lines((cv::Mat_<int16_t>(1, 3) << 90, 20, -1));
+  EXPECT_EQ(blocks.at(0, 0).near16, 90);
+  EXPECT_TRUE(blocks.at(0, 0).thin);
+  EXPECT_EQ(blocks.at(0, 0).sigma16, -1);
+  for (const int col : {1, 2}) {
+    EXPECT_EQ(blocks.at(0, col).near16, 40) << col;
+    EXPECT_FALSE(blocks.at(0, col).thin) << col;
+  }
+}
+
 // The oracle sorts the disparities of each block.
 TEST(DepthBlocks, NearestDisparityIsThatOfASortedBlock) {
   cv::Mat disparity16(160, 240, CV_16SC1);

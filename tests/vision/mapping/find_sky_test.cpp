@@ -5,63 +5,16 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "tests/vision/mapping/mapped_world.h"
+#include "tests/vision/mapping/sky_view.h"
 
 namespace hedgehop::vision::mapping {
 namespace {
-
-constexpr int kGroundGrey = 90, kSkyGrey = 170, kBoxGrey = 120;
-
-/// Disparity of a matcher for textured ground, untextured boxes and sky: unknown on untextured surfaces and on ground
-/// beyond 60 m.
-struct View {
-  MappedWorld world;
-  cv::Mat disparity16, grey;
-  std::vector<uint8_t> is_sky, is_blank;  ///< of each pixel, by ray
-  Eigen::Isometry3d X_WC;
-
-  DepthBlocks blocks() const {
-    DepthBlocks blocks;
-    blocks.build(disparity16, grey, 0);
-    find_sky(world.geometry, X_WC.linear().row(2).transpose(), blocks);
-    return blocks;
-  }
-};
-
-View look(const MappedWorld& world, double height_m, const std::vector<Eigen::AlignedBox3d>& blank_W,
-          double pitch_rad = 0.0, double roll_rad = 0.0) {
-  const Eigen::Isometry3d X_WC = MappedWorld::looking({0.0, 0.0, -height_m}, 0.0, pitch_rad) *
-                                 Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ());
-  View view{world,
-            cv::Mat(world.height_px, world.width_px, CV_16SC1),
-            cv::Mat(world.height_px, world.width_px, CV_8UC1),
-            {},
-            {},
-            X_WC};
-  MappedWorld with = world;
-  with.boxes_W.insert(with.boxes_W.end(), blank_W.begin(), blank_W.end());
-  constexpr double kMatchedM = 60.0;
-  for (int v = 0; v < world.height_px; ++v) {
-    for (int u = 0; u < world.width_px; ++u) {
-      const Eigen::Vector3d ray_W = X_WC.linear() * world.geometry.ray_at_unit_depth({u, v});
-      const double bare_m = world.cast(X_WC.translation(), ray_W), z_m = with.cast(X_WC.translation(), ray_W);
-      const bool blank = z_m < bare_m, sky = std::isinf(z_m);
-      view.grey.at<uint8_t>(v, u) = static_cast<uint8_t>(sky ? kSkyGrey : blank ? kBoxGrey : kGroundGrey);
-      view.disparity16.at<int16_t>(v, u) = sky || blank || z_m > kMatchedM
-                                               ? stereo::kNoDisparity
-                                               : static_cast<int16_t>(std::lround(world.geometry.disparity16(z_m)));
-      view.is_sky.push_back(sky);
-      view.is_blank.push_back(blank);
-    }
-  }
-  return view;
-}
 
 struct Found {
   int sky = 0, of_sky = 0, wrong = 0;
 };
 
-Found find(const View& view) {
+Found find(const SkyView& view) {
   const DepthBlocks blocks = view.blocks();
   Found found;
   for (int row = 0; row < blocks.rows(); ++row) {
@@ -87,7 +40,7 @@ TEST(FindSky, FindsSkyAboveFarGround) {
 }
 
 /// Blocks marked as sky among untextured blocks.
-int within_blank(const View& view) {
+int within_blank(const SkyView& view) {
   const DepthBlocks blocks = view.blocks();
   const auto is_blank = [&](int row, int col) {
     return view.is_blank[static_cast<size_t>((row * 8 + 4) * view.world.width_px + col * 8 + 4)];
@@ -116,9 +69,9 @@ TEST(FindSky, TiltedCameraFindsSkyAndExcludesTowers) {
     for (const double aside_m : {-6.0, 0.0, 6.0}) {
       const Eigen::AlignedBox3d tower(Eigen::Vector3d(12.0, aside_m - 3.0, -60.0),
                                       Eigen::Vector3d(18.0, aside_m + 3.0, 0.0));
-      const View view = look({}, 15.0, {tower}, -0.1, roll_rad);
+      const SkyView view = look({}, 15.0, {tower}, -0.1, roll_rad);
       // As bright as the sky: only the ground below distinguishes it.
-      View like = view;
+      SkyView like = view;
       like.grey.setTo(kSkyGrey, like.grey == kBoxGrey);
       EXPECT_EQ(within_blank(like), 0) << roll_rad << " " << aside_m;
       tower_px += std::ranges::count(view.is_blank, true);
@@ -151,7 +104,7 @@ TEST(FindSky, FreeRangeOfSkyIsLimitedByItsGround) {
   };
   for (const auto& [wall_m, height_m, pitch_rad] : {Flight{40.0, 4.0, 0.0}, {26.0, 15.0, -0.2}, {26.0, 15.0, -0.35}}) {
     const Eigen::AlignedBox3d wall(Eigen::Vector3d(wall_m, -90.0, -90.0), Eigen::Vector3d(wall_m + 1.0, 90.0, 0.0));
-    const View view = look({}, height_m, {wall}, pitch_rad);
+    const SkyView view = look({}, height_m, {wall}, pitch_rad);
     const DepthBlocks blocks = view.blocks();
     int passed = 0;
     for (int row = 0; row < blocks.rows(); ++row) {
@@ -178,7 +131,7 @@ MappedWorld walled(double ahead_m) {
 
 TEST(FindSky, FindsSkyAboveAWallWithTheRangeOfTheWall) {
   constexpr double kWallM = 19.0;
-  const View view = look(walled(kWallM), 4.0, {});
+  const SkyView view = look(walled(kWallM), 4.0, {});
   const Found found = find(view);
   EXPECT_GT(found.sky, 0.9 * found.of_sky);
   EXPECT_EQ(found.wrong, 0);
@@ -216,7 +169,7 @@ TEST(FindSky, MatchesOnAnUntexturedWallAreNotGround) {
   constexpr double kNoiseM = 40.0;
   for (const double wall_m : {4.0, 6.0, 8.0}) {
     const Eigen::AlignedBox3d wall(Eigen::Vector3d(wall_m, -90.0, -90.0), Eigen::Vector3d(wall_m + 1.0, 90.0, 0.0));
-    View view = look({}, 4.0, {wall});
+    SkyView view = look({}, 4.0, {wall});
     const int horizon_px = view.world.height_px / 2;
     const auto noise16 = static_cast<double>(std::lround(view.world.geometry.disparity16(kNoiseM)));
     view.disparity16.rowRange(horizon_px + 8, horizon_px + 24).setTo(noise16);
@@ -233,13 +186,13 @@ TEST(FindSky, UntexturedBoxInTheAirIsNotSky) {
 }
 
 TEST(FindSky, FindsNoSkyIfOnlyCloseGroundIsMatched) {
-  View view = look({}, 4.0, {});
+  SkyView view = look({}, 4.0, {});
   view.disparity16.setTo(stereo::kNoDisparity, view.disparity16 < view.world.geometry.disparity16(15.0));  // as in fog
   EXPECT_EQ(find(view).sky, 0);
 }
 
 /// Darkens the sky in a part of an image.
-void draw_before_sky(View& view, const cv::Rect& part, int grey) {
+void draw_before_sky(SkyView& view, const cv::Rect& part, int grey) {
   for (int v = part.y; v < part.br().y; ++v) {
     for (int u = part.x; u < part.br().x; ++u) {
       const bool sky = view.is_sky[static_cast<size_t>(v * view.world.width_px + u)];
@@ -250,12 +203,12 @@ void draw_before_sky(View& view, const cv::Rect& part, int grey) {
 
 // An unmatched pole, and a wire just above the horizon, one pixel wide: not sky, without effect on the adjacent sky.
 TEST(FindSky, ThinObjectInFrontOfSkyIsALine) {
-  const View open = look({}, 4.0, {});
+  const SkyView open = look({}, 4.0, {});
   const Found before = find(open);
   const int horizon_px = static_cast<int>(open.world.geometry.center_v_px);
   for (const cv::Rect& thin : {cv::Rect(161, 0, 1, horizon_px), cv::Rect(0, horizon_px - 12, 320, 1)}) {
     for (const int grey : {0, kSkyGrey - 40}) {
-      View view = open;
+      SkyView view = open;
       view.grey = open.grey.clone();
       draw_before_sky(view, thin, grey);
       const DepthBlocks blocks = view.blocks();
@@ -280,7 +233,7 @@ TEST(FindSky, ThinObjectInFrontOfSkyIsALine) {
 }
 
 TEST(FindSky, CameraNoiseIsNotALine) {
-  View view = look({}, 4.0, {});
+  SkyView view = look({}, 4.0, {});
   const Found before = find(view);
   cv::Mat noise(view.grey.size(), CV_16SC1), noisy;
   cv::RNG generator(1);
