@@ -37,11 +37,16 @@ CoarseMatcher::CoarseMatcher(const StereoMatcherConfig& fine)
 int CoarseMatcher::fill(const cv::Mat& left, const cv::Mat& right, double fine_sigma_px, cv::Mat& disparity16,
                         cv::Mat& sigma16) {
   constexpr int kSameSegment16 = 32, kSpeckPx = 100;
+  constexpr int kContrastPx = 9;  // side of the square in which a pixel's surface must be faint
+  constexpr int kFaint = 30;      // maximum range of grey levels; that of noise of 2 is about 10
   const auto sigma_of = [&](int reduction) {
     return static_cast<int16_t>(std::ceil(kDisparityUnits * fine_sigma_px * reduction));
   };
   sigma16.create(disparity16.size(), CV_16SC1);
   sigma16.setTo(sigma_of(1));
+  // Coarse windows do not see a thin object, which has contrast.
+  const cv::Mat nearby = cv::Mat::ones(kContrastPx, kContrastPx, CV_8U);
+  cv::morphologyEx(left, contrast_, cv::MORPH_GRADIENT, nearby);
   int filled = 0;
   for (Level& level : levels_) {
     const cv::Size size(left.cols / level.reduction, left.rows / level.reduction);
@@ -55,11 +60,12 @@ int CoarseMatcher::fill(const cv::Mat& left, const cv::Mat& right, double fine_s
     for (int v = 0; v < whole.height; ++v) {
       const auto* const from = level.disparity16.ptr<int16_t>(v / level.reduction);
       const auto* const smeared = level.smeared.ptr<uint8_t>(v / level.reduction);
+      const auto* const contrast = contrast_.ptr<uint8_t>(v);
       auto* const to = disparity16.ptr<int16_t>(v);
       auto* const its_sigma = sigma16.ptr<int16_t>(v);
       for (int u = 0; u < whole.width; ++u) {
         const int at = u / level.reduction;
-        if (to[u] >= 0 || from[at] < 0 || smeared[at] != 0) continue;
+        if (to[u] >= 0 || from[at] < 0 || smeared[at] != 0 || contrast[u] > kFaint) continue;
         to[u] = static_cast<int16_t>(level.reduction * from[at]);
         its_sigma[u] = sigma;
         ++filled;

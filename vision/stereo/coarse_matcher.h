@@ -16,7 +16,7 @@ class CoarseMatcher {
   /// @param fine  config of the block matcher. Throws std::invalid_argument as StereoMatcher does.
   explicit CoarseMatcher(const StereoMatcherConfig& fine);
 
-  /// Fills unmatched pixels. Matches that may belong to an adjacent surface are not used.
+  /// Fills unmatched pixels of little contrast. Matches that may belong to an adjacent surface are not used.
   /// @param left, right  CV_8UC1, of equal size, rectified. @param fine_sigma_px  1-sigma error of the given
   /// disparities; at 1 / n of the resolution it is n times as large. @param disparity16  of the left image, filled in
   /// place.
@@ -30,6 +30,7 @@ class CoarseMatcher {
     cv::Mat left, right, disparity16, smeared;
   };
   int half_window_px_;
+  cv::Mat contrast_;  ///< range of grey levels near each pixel
   std::vector<Level> levels_;
 };
 
