@@ -48,8 +48,9 @@ class SmallCampaign : public CampaignFolder {
 
   /// Runs a command without faults into the folder `out`, returns the contents of the folder and removes it.
   std::map<std::string, std::string> fly_undisturbed(std::string_view command) const {
+    const int workers = command == "until" ? 1 : 2;  // one worker flies no flight past the stop of a batch
     const CommandEnd end =
-        shell(on_failing_disk("out", "none", 0) + HEDGEHOP_PROGRAM " " + arguments(command, "out", 2));
+        shell(on_failing_disk("out", "none", 0) + HEDGEHOP_PROGRAM " " + arguments(command, "out", workers));
     if (end.status != status(command)) throw std::runtime_error(end.err);
     auto files = lasting_files("out");
     std::filesystem::remove_all(path() / "out");
