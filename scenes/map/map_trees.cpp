@@ -34,7 +34,7 @@ std::tuple<int, int> plot_of(const MapTree& tree) {
           static_cast<int>(std::floor(tree.p_NE.y() / kTreePlotM))};
 }
 
-/// Shares of a crown's radii: the extent of the octahedron that stands for it from afar, and the maximum distance
+/// Shares of a crown's radii: the extent of the octahedron that replaces it at a distance, and the maximum distance
 /// between the octahedron and the lump. Surfaces of both lie between their insphere and their circumsphere.
 struct FarCrown {
   double extent = 0.0, error = 0.0;
