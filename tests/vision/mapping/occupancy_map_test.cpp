@@ -106,22 +106,37 @@ TEST(OccupancyMap, WithoutMatchesAllVoxelsAreUnknown) {
   }
 }
 
+/// A camera that looks north, a map around it, and its image of free space.
+struct NorthView {
+  NorthView() {
+    map.reset(p_WC);
+    free.build(cv::Mat(world.height_px, world.width_px, CV_16SC1, cv::Scalar(0)), {}, 0);
+  }
+  void integrate(const DepthBlocks& blocks, OccupancyMap::Instant instant = OccupancyMap::Instant::next) {
+    map.integrate(blocks, world.geometry, X_WC, {}, instant);
+  }
+  /// Row and column of the block straight ahead.
+  int row() const { return static_cast<int>(world.geometry.center_v_px) / 8; }
+  int col() const { return static_cast<int>(world.geometry.center_u_px) / 8; }
+
+  MappedWorld world;
+  OccupancyMap map{small()};
+  Eigen::Vector3d p_WC{0.15, 0.15, -1.35};
+  Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.0);
+  DepthBlocks free;
+};
+
 // Free voxels behind a line become unknown beyond 4 m after three images, never occupied; others do not change.
 TEST(OccupancyMap, ThinObjectInFrontOfSkyMakesItsRayUnknown) {
-  const MappedWorld world;
-  OccupancyMap map(small());
-  const Eigen::Vector3d p_WC(0.15, 0.15, -1.35);
-  map.reset(p_WC);
-  const Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.0);
-  DepthBlocks blocks;
-  blocks.build(cv::Mat(world.height_px, world.width_px, CV_16SC1, cv::Scalar(0)), {}, 0);
+  NorthView view;
+  DepthBlocks blocks = view.free;
   const auto look = [&](DepthBlock::Kind ahead) {
-    const int row = static_cast<int>(world.geometry.center_v_px) / 8,
-              col = static_cast<int>(world.geometry.center_u_px) / 8;
-    blocks.at(row, col).kind = ahead;
-    map.integrate(blocks, world.geometry, X_WC);
+    blocks.at(view.row(), view.col()).kind = ahead;
+    view.integrate(blocks);
   };
-  const auto at = [&](double north_m, double east_m) { return map.state(map.index({north_m, east_m, p_WC.z()})); };
+  const auto at = [&](double north_m, double east_m) {
+    return view.map.state(view.map.index({north_m, east_m, view.p_WC.z()}));
+  };
   for (int i = 0; i < 5; ++i) look(DepthBlock::Kind::sky);
   for (double north_m = 2.0; north_m < 12.0; north_m += 0.3) ASSERT_EQ(at(north_m, 0.15), State::free) << north_m;
   for (int i = 0; i < 3; ++i) look(DepthBlock::Kind::line);
@@ -139,56 +154,44 @@ TEST(OccupancyMap, ThinObjectInFrontOfSkyMakesItsRayUnknown) {
 // Three images of a line 7 m away, too far to place a surface: free voxels within two sigma of it become unknown; those
 // in front of it stay free. It is not reported as a surface that may move.
 TEST(OccupancyMap, MatchedLineMakesTheSpaceWithinItsErrorUnknown) {
-  const MappedWorld world;
-  OccupancyMap map(small());
-  const Eigen::Vector3d p_WC(0.15, 0.15, -1.35);
-  map.reset(p_WC);
-  const Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.0);
-  DepthBlocks blocks;
-  blocks.build(cv::Mat(world.height_px, world.width_px, CV_16SC1, cv::Scalar(0)), {}, 0);
-  for (int i = 0; i < 5; ++i) map.integrate(blocks, world.geometry, X_WC);
+  NorthView view;
+  for (int i = 0; i < 5; ++i) view.integrate(view.free);
   constexpr double kLineM = 7.0;
-  const double units = stereo::kDisparityUnits * world.geometry.baseline_m * world.geometry.focal_px;
-  cv::Mat lines16(blocks.rows(), blocks.cols(), CV_16SC1, cv::Scalar(stereo::kNoDisparity));
-  lines16.at<int16_t>(static_cast<int>(world.geometry.center_v_px) / 8,
-                      static_cast<int>(world.geometry.center_u_px) / 8) = static_cast<int16_t>(units / kLineM);
-  blocks.add_lines(lines16);
+  const double units = stereo::kDisparityUnits * view.world.geometry.baseline_m * view.world.geometry.focal_px;
+  DepthBlocks line = view.free;
+  cv::Mat lines16(line.rows(), line.cols(), CV_16SC1, cv::Scalar(stereo::kNoDisparity));
+  lines16.at<int16_t>(view.row(), view.col()) = static_cast<int16_t>(units / kLineM);
+  line.add_lines(lines16);
   for (int i = 0; i < 3; ++i) {
-    map.integrate(blocks, world.geometry, X_WC);
-    EXPECT_TRUE(map.hits().empty());
+    view.integrate(line);
+    EXPECT_TRUE(view.map.hits().empty());
   }
-  const double two_sigma16 = 2.0 * map.config().noise_px * stereo::kDisparityUnits;
+  const double two_sigma16 = 2.0 * view.map.config().noise_px * stereo::kDisparityUnits;
   const double from_m = units / (units / kLineM + two_sigma16), to_m = units / (units / kLineM - two_sigma16);
   for (double north_m = 2.1; north_m < 14.0; north_m += 0.3) {
-    const double z_m = north_m - p_WC.x();
+    const double z_m = north_m - view.p_WC.x();
     if (std::min(std::abs(z_m - from_m), std::abs(z_m - to_m)) < 0.3) continue;  // voxels at the ends
     const State expected = z_m > from_m && z_m < to_m ? State::unknown : State::free;
-    EXPECT_EQ(map.state(map.index({north_m, 0.15, p_WC.z()})), expected) << north_m;
+    EXPECT_EQ(view.map.state(view.map.index({north_m, 0.15, view.p_WC.z()})), expected) << north_m;
   }
 }
 
 // A second image of the same instant that shows free space, such as that of a pair that cannot match the line.
 TEST(OccupancyMap, FreeSpaceInAnotherImageDoesNotOutweighALine) {
-  const MappedWorld world;
-  OccupancyMap map(small());
-  const Eigen::Vector3d p_WC(0.15, 0.15, -1.35), ahead_W(7.05, 0.15, -1.35);
-  map.reset(p_WC);
-  const Eigen::Isometry3d X_WC = MappedWorld::looking(p_WC, 0.0);
-  DepthBlocks free, line;
-  for (DepthBlocks* blocks : {&free, &line}) {
-    blocks->build(cv::Mat(world.height_px, world.width_px, CV_16SC1, cv::Scalar(0)), {}, 0);
-  }
-  const auto line16 = static_cast<int16_t>(world.geometry.disparity16(7.0));
+  NorthView view;
+  const auto ahead = [&] { return view.map.state(view.map.index({7.05, 0.15, -1.35})); };
+  DepthBlocks line = view.free;
+  const auto line16 = static_cast<int16_t>(view.world.geometry.disparity16(7.0));
   line.add_lines(cv::Mat(line.rows(), line.cols(), CV_16SC1, cv::Scalar(line16)));
-  for (int i = 0; i < 5; ++i) map.integrate(free, world.geometry, X_WC);
-  EXPECT_EQ(map.state(map.index(ahead_W)), State::free);
+  for (int i = 0; i < 5; ++i) view.integrate(view.free);
+  EXPECT_EQ(ahead(), State::free);
   for (int i = 0; i < 3; ++i) {
-    map.integrate(line, world.geometry, X_WC);
-    map.integrate(free, world.geometry, X_WC, {}, OccupancyMap::Instant::same);
+    view.integrate(line);
+    view.integrate(view.free, OccupancyMap::Instant::same);
   }
-  EXPECT_EQ(map.state(map.index(ahead_W)), State::unknown);
-  for (int i = 0; i < 5; ++i) map.integrate(free, world.geometry, X_WC);
-  EXPECT_EQ(map.state(map.index(ahead_W)), State::free);
+  EXPECT_EQ(ahead(), State::unknown);
+  for (int i = 0; i < 5; ++i) view.integrate(view.free);
+  EXPECT_EQ(ahead(), State::free);
 }
 
 TEST(OccupancyMap, MoveKeepsVoxelsInsideAndClearsTheOthers) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
+#include "tests/vision/stereo/surface_images.h"
 #include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::stereo {
@@ -14,18 +14,12 @@ constexpr int kWidth = 640, kHeight = 240;
 constexpr double kSurfacePx = 9.3;  // disparity
 constexpr StereoMatcherConfig kFine{.method = StereoMatcherConfig::Method::block, .disparities_px = 64, .block_px = 11};
 
-/// The image of a faint surface, farther left by its disparity, with noise of 2 grey levels.
+/// The image of a faint surface, farther left by its disparity, with noise.
 cv::Mat faint(double texture, double left_px, uint64_t noise_seed) {
   constexpr int kMargin = 64;
-  cv::RNG random(7);
-  cv::Mat surface(kHeight, kWidth + kMargin, CV_32FC1);
-  random.fill(surface, cv::RNG::NORMAL, 0.0, 1.0);
-  cv::GaussianBlur(surface, surface, {}, 4.0);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(surface, mean, deviation);
-  surface = surface * (texture / deviation[0]) + 130.0;
-  cv::Mat noise(kHeight, kWidth, CV_32FC1), image(kHeight, kWidth, CV_8UC1);
-  cv::RNG(noise_seed).fill(noise, cv::RNG::NORMAL, 0.0, 2.0);
+  const cv::Mat surface = textured_surface(7, {kWidth + kMargin, kHeight}, 4.0, texture);
+  const cv::Mat noise = camera_noise(noise_seed, {kWidth, kHeight});
+  cv::Mat image(kHeight, kWidth, CV_8UC1);
   const auto first = static_cast<int>(std::floor(left_px));
   const double share = left_px - first;
   for (int v = 0; v < kHeight; ++v) {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
+#include "tests/vision/stereo/surface_images.h"
 #include "vision/stereo/disparity.h"
 
 namespace hedgehop::vision::stereo {
@@ -28,18 +28,12 @@ struct ThinScene {
     return std::abs((u - 0.5 * (kWidth + kCell)) * std::sin(angle_rad) - (v - 0.5 * kHeight) * std::cos(angle_rad));
   }
 
-  /// The image of a camera in which the surface and the line appear farther left, with noise of 2 grey levels.
+  /// The image of a camera in which the surface and the line appear farther left, with noise.
   cv::Mat image(double behind_px, double line_px, uint64_t noise_seed) const {
     constexpr int kMargin = 64, kSamples = 4;
-    cv::RNG random(seed);
-    cv::Mat surface(kHeight, kWidth + 2 * kMargin, CV_32FC1);
-    random.fill(surface, cv::RNG::NORMAL, 0.0, 1.0);
-    cv::GaussianBlur(surface, surface, {}, 1.5);
-    cv::Scalar mean, deviation;
-    cv::meanStdDev(surface, mean, deviation);
-    surface = surface * (texture / deviation[0]) + 130.0;
-    cv::Mat noise(kHeight, kWidth, CV_32FC1), image(kHeight, kWidth, CV_8UC1);
-    cv::RNG(noise_seed).fill(noise, cv::RNG::NORMAL, 0.0, 2.0);
+    const cv::Mat surface = textured_surface(seed, {kWidth + 2 * kMargin, kHeight}, 1.5, texture);
+    const cv::Mat noise = camera_noise(noise_seed, {kWidth, kHeight});
+    cv::Mat image(kHeight, kWidth, CV_8UC1);
     for (int v = 0; v < kHeight; ++v) {
       for (int u = 0; u < kWidth; ++u) {
         const double at = u + kMargin + behind_px;
