@@ -32,32 +32,44 @@ def clamp(value, low, high):
     return max(low, min(high, value))
 
 
-class HoverLaw:
+class Hold:
+    """The position and heading of the first state, `climb_m` higher."""
+
+    def __init__(self, climb_m=0.0):
+        self.climb_m = climb_m
+        self.hold = None
+
+    def offsets(self, state):
+        """Returns the offset from it (north, east, down, m) and the turn back to the heading (rad)."""
+        n, e, d = state["position"]
+        yaw = state["attitude"][2]
+        if self.hold is None:
+            self.hold = (n, e, d - self.climb_m, yaw)
+        n0, e0, d0, yaw0 = self.hold
+        return n - n0, e - e0, d - d0, math.remainder(yaw0 - yaw, 2 * math.pi)
+
+
+class HoverLaw(Hold):
     """Pulses that hold a multicopter at a position and heading, from the state of the reply."""
 
     def __init__(self, vehicle, climb_m=0.0):
         frame, self.mass, self.inertia, self.arm, self.thrust, self.torque, self.highest, self.upright = VEHICLES[vehicle]
         self.motors = FRAMES[frame]
-        self.climb_m = climb_m
-        self.hold = None
+        super().__init__(climb_m)
 
     def pulses(self, state):
-        n, e, d = state["position"]
-        if self.hold is None:
-            self.hold = (n, e, d - self.climb_m, state["attitude"][2])
-        n0, e0, d0, yaw0 = self.hold
+        off_n, off_e, off_d, turn = self.offsets(state)
         vn, ve, vd = state["velocity"]
         roll, pitch, yaw = state["attitude"]
         p, q, r = state["imu"]["gyro"]
-        forward = clamp(-1.0 * (n - n0) - 1.8 * vn, -2, 2)
-        east = clamp(-1.0 * (e - e0) - 1.8 * ve, -2, 2)
+        forward = clamp(-1.0 * off_n - 1.8 * vn, -2, 2)
+        east = clamp(-1.0 * off_e - 1.8 * ve, -2, 2)
         ahead = forward * math.cos(yaw) + east * math.sin(yaw)
         right = -forward * math.sin(yaw) + east * math.cos(yaw)
-        down = clamp(-2.0 * clamp(d - d0, -1, 1) - 2.5 * vd, -3, 3)
+        down = clamp(-2.0 * clamp(off_d, -1, 1) - 2.5 * vd, -3, 3)
         if state["velocity"] == [0, 0, 0]:
             down -= 1.0  # on the stand, the thrust must exceed the weight
         total = self.mass * (GRAVITY - down) / max(0.5, math.cos(roll) * math.cos(pitch)) / self.upright
-        turn = math.remainder(yaw0 - yaw, 2 * math.pi)
         roll_torque = self.inertia[0] * (60 * (right / GRAVITY - roll) - 14 * p)
         pitch_torque = self.inertia[1] * (60 * (-ahead / GRAVITY - pitch) - 14 * q)
         yaw_torque = self.inertia[2] * (4 * clamp(turn, -0.5, 0.5) - 3 * r)
@@ -72,7 +84,7 @@ class HoverLaw:
         return pulses + [0] * (16 - count)
 
 
-class HelicopterLaw:
+class HelicopterLaw(Hold):
     """Pulses that hold the X-Cell .60 of configs/links/hover_helicopter.yaml, for a swashplate H3-120."""
 
     HOVER_DEG, TAIL_DEG, ROLL_RAD = 5.48, 11.2, 0.0784  # collective, tail and bank of the hover
@@ -80,33 +92,26 @@ class HelicopterLaw:
     CYCLIC_LIMIT = 2500 / 4500  # roll or pitch at the cyclic stop
     FACTORS = [(0.866025, 0.5), (-0.866025, 0.5), (0, -1)]  # of roll and pitch, per servo
 
-    def __init__(self, climb_m=0.0):
-        self.climb_m = climb_m
-        self.hold = None
-
     def pulses(self, state):
-        n, e, d = state["position"]
-        if self.hold is None:
-            self.hold = (n, e, d - self.climb_m, state["attitude"][2])
-        n0, e0, d0, yaw0 = self.hold
+        off_n, off_e, off_d, turn = self.offsets(state)
         vn, ve, vd = state["velocity"]
         roll, pitch, yaw = state["attitude"]
         p, q, r = state["imu"]["gyro"]
-        north = clamp(-0.2 * (n - n0) - 0.6 * vn, -1, 1)
-        east = clamp(-0.2 * (e - e0) - 0.6 * ve, -1, 1)
+        north = clamp(-0.2 * off_n - 0.6 * vn, -1, 1)
+        east = clamp(-0.2 * off_e - 0.6 * ve, -1, 1)
         ahead = north * math.cos(yaw) + east * math.sin(yaw)
         right = -north * math.sin(yaw) + east * math.cos(yaw)
         lateral = clamp(math.degrees(0.1 * (self.ROLL_RAD + right / GRAVITY - roll) - 0.005 * p), -6, 6)
         longitudinal = clamp(math.degrees(0.1 * (-ahead / GRAVITY - pitch) - 0.005 * q), -6, 6)
-        collective = self.HOVER_DEG + clamp(1.0 * clamp(d - d0, -1, 1) + 1.2 * vd, -2, 2)
-        tail = clamp(self.TAIL_DEG + 10 * math.remainder(yaw0 - yaw, 2 * math.pi) - 6 * r, -15, 18)
+        collective = self.HOVER_DEG + clamp(1.0 * clamp(off_d, -1, 1) + 1.2 * vd, -2, 2)
+        tail = clamp(self.TAIL_DEG + 10 * turn - 6 * r, -15, 18)
         col = 0.25 + 0.5 * (collective - self.LOW_DEG) / (self.HIGH_DEG - self.LOW_DEG)
-        turn = (tail - self.TAIL_DEG) / (self.TAIL_STOP_DEG + (-self.TAIL_DEG if tail >= self.TAIL_DEG else self.TAIL_DEG))
+        rudder = (tail - self.TAIL_DEG) / (self.TAIL_STOP_DEG + (-self.TAIL_DEG if tail >= self.TAIL_DEG else self.TAIL_DEG))
         pulses = [1000] * 8
         for servo, (of_roll, of_pitch) in enumerate(self.FACTORS):
             share = 0.45 * self.CYCLIC_LIMIT / self.CYCLIC_DEG * (of_roll * lateral + of_pitch * longitudinal) + col
             pulses[servo] = round(1000 * (share + 1))
-        pulses[3] = round(1500 + 400 * turn)
+        pulses[3] = round(1500 + 400 * rudder)
         pulses[7] = 1700
         return pulses + [0] * 8
 
