@@ -57,6 +57,16 @@ function niceTicks(low, high, count) {
   return {step, values};
 }
 
+/** Returns the last row at or before an instant, the first row if there is none. @param times  increasing. */
+function rowBefore(times, t_s) {
+  let low = 0, high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= t_s) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
 /** Returns the minimum and maximum finite value, or [0, 1] if there is none. */
 function finiteRange(values) {
   let low = Infinity, high = -Infinity;

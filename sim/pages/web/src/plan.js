@@ -155,15 +155,7 @@ class PlanView {
   /** Shows the vehicle at an instant; null hides it. */
   setTime(t) {
     const {path} = this;
-    let row = null;
-    if (t !== null && path.t.length) {
-      let low = 0, high = path.t.length - 1;
-      while (low < high) {
-        const middle = (low + high + 1) >> 1;
-        if (path.t[middle] <= t) low = middle; else high = middle - 1;
-      }
-      row = low;
-    }
+    const row = t !== null && path.t.length ? rowBefore(path.t, t) : null;
     if (row === this.row) return;
     this.row = row;
     this.draw();

@@ -70,13 +70,9 @@ function showSolids(shown) {
 
 /** Returns the row before an instant, and the share of the step to the next row. */
 function place(t_s) {
-  let low = 0, high = path.t_s.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (path.t_s[middle] <= t_s) low = middle; else high = middle - 1;
-  }
-  const next = Math.min(low + 1, path.t_s.length - 1), step = path.t_s[next] - path.t_s[low];
-  return {row: low, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[low]) / step)) : 0};
+  const row = rowBefore(path.t_s, t_s), next = Math.min(row + 1, path.t_s.length - 1);
+  const step = path.t_s[next] - path.t_s[row];
+  return {row, next, share: step > 0 ? Math.min(1, Math.max(0, (t_s - path.t_s[row]) / step)) : 0};
 }
 const between = (values, {row, next, share}) => values[row] + share * (values[next] - values[row]);
 /** Interpolates an angle along the shorter arc. */
