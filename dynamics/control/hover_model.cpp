@@ -11,6 +11,36 @@
 namespace hedgehop::dynamics::control {
 namespace {
 
+/// Places of the states of a helicopter's linear model in the hover model.
+struct HelicopterPlaces {
+  std::vector<int> index;  ///< -1 for unused states: a lumped stabilizer bar has none
+  int servos = 0;          ///< first state of the servos
+  int size = 0;
+};
+
+HelicopterPlaces places_of(const helicopter::LinearModel& linear) {
+  using L = helicopter::LinearModel;
+  using M = HoverModel;
+  HelicopterPlaces places{.index = std::vector<int>(L::kStates)};
+  const std::vector<std::pair<int, int>> named = {{L::kU, M::kForward},
+                                                  {L::kV, M::kRight},
+                                                  {L::kW, M::kDown},
+                                                  {L::kP, M::kP},
+                                                  {L::kQ, M::kQ},
+                                                  {L::kR, M::kR},
+                                                  {L::kRollAngle, M::kRollAngle},
+                                                  {L::kPitchAngle, M::kPitchAngle},
+                                                  {L::kHeading, M::kHeading}};
+  for (const auto& [from, to] : named) places.index[static_cast<size_t>(from)] = to;
+  places.servos = M::kHidden;
+  for (const int k : {L::kDiscBack, L::kDiscRight, L::kBarBack, L::kBarRight}) {
+    const bool is_used = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
+    places.index[static_cast<size_t>(k)] = is_used ? places.servos++ : -1;
+  }
+  places.size = places.servos + 2 * kControlAxes;
+  return places;
+}
+
 HoverModel make(const helicopter::HelicopterConfig& config) {
   using L = helicopter::LinearModel;
   using M = HoverModel;
@@ -25,26 +55,7 @@ HoverModel make(const helicopter::HelicopterConfig& config) {
   linear.A = (T * linear.A * T.transpose()).eval();
   linear.B = (T * linear.B).eval();
 
-  // Index of each state of the linear model, -1 for unused ones: a lumped stabilizer bar has no states.
-  std::vector<int> index(L::kStates);
-  const std::vector<std::pair<int, int>> named = {{L::kU, M::kForward},
-                                                  {L::kV, M::kRight},
-                                                  {L::kW, M::kDown},
-                                                  {L::kP, M::kP},
-                                                  {L::kQ, M::kQ},
-                                                  {L::kR, M::kR},
-                                                  {L::kRollAngle, M::kRollAngle},
-                                                  {L::kPitchAngle, M::kPitchAngle},
-                                                  {L::kHeading, M::kHeading}};
-  for (const auto& [from, to] : named) index[static_cast<size_t>(from)] = to;
-  int size = M::kHidden;
-  for (const int k : {L::kDiscBack, L::kDiscRight, L::kBarBack, L::kBarRight}) {
-    const bool is_used = !linear.A.row(k).isZero(0.0) || !linear.B.row(k).isZero(0.0);
-    index[static_cast<size_t>(k)] = is_used ? size++ : -1;
-  }
-  const int servos = size;
-  size += 2 * kControlAxes;
-
+  const auto [index, servos, size] = places_of(linear);
   HoverModel out;
   out.roll_rad = hover->roll_rad;
   out.pitch_rad = hover->pitch_rad;

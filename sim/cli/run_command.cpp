@@ -163,6 +163,21 @@ void warn_of_link(const LinkFigures& link) {
   }
 }
 
+/// Writes the pages that the options request. @return whether there is a report.
+bool write_pages(const RunOptions& options, const Scenario& scenario, const RunInfo& info, const Flight& flight,
+                 const std::filesystem::path& out) {
+  const bool failed = !holds(verdict_of(flight.result));
+  const bool has_report = !options.no_report || keeps(options, "report", failed);
+  try {
+    if (keeps(options, "replay", failed)) write_replay(out, run_record(scenario, info, flight));
+    if (has_report) write_report(out, run_record(scenario, info, flight));  // links the replay
+  } catch (const PagesAbsent& absent) {
+    notice(fmt::format("{}\n", absent.what()));
+    return false;
+  }
+  return has_report;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -208,15 +223,7 @@ int run(const RunOptions& options) {
                      to_yaml(scenario)};
   if (view) view->end(info, flight.result);
   write_result_files(out, info, flight);
-  bool has_report = !options.no_report || keeps(options, "report", failed);
-  const bool has_replay = keeps(options, "replay", failed);
-  try {
-    if (has_replay) write_replay(out, run_record(scenario, info, flight));
-    if (has_report) write_report(out, run_record(scenario, info, flight));  // links the replay
-  } catch (const PagesAbsent& absent) {
-    has_report = false;
-    notice(fmt::format("{}\n", absent.what()));
-  }
+  const bool has_report = write_pages(options, scenario, info, flight, out);
   if (flight.result.link) warn_of_link(*flight.result.link);
   if (flight.result.goal_missed_unchecked && options.worker_of == 0) {
     notice(fmt::format("warning: {}: {}\n", scenario.name, kGoalMissedUnchecked));

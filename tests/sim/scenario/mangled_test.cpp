@@ -15,6 +15,37 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Texts with a meaning in YAML.
+constexpr std::string_view kYamlBits[] = {"[",
+                                          "]",
+                                          "{",
+                                          "}",
+                                          ":",
+                                          "-",
+                                          "\n",
+                                          "  ",
+                                          "#",
+                                          "&a ",
+                                          "*a",
+                                          "<<: ",
+                                          "~",
+                                          ".nan",
+                                          "'",
+                                          "\"",
+                                          "|",
+                                          "\t",
+                                          "use: a.yaml",
+                                          "1e308",
+                                          "-1",
+                                          "!!str ",
+                                          "---\n",
+                                          "%",
+                                          "\xff",
+                                          std::string_view("\0", 1),
+                                          "? ",
+                                          "99999999999999999999",
+                                          "module: go_to_goal"};
+
 /// Bytes inserted, removed, changed or repeated.
 TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
   Folder folder;
@@ -22,35 +53,6 @@ TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
   for (const char* used : {"rigs/garratt2009_400.yaml", "sensors/day.yaml", "vehicles/electric_helicopter_8kg.yaml"}) {
     Folder::write(used, text_of(kConfigs / used));
   }
-  static constexpr std::string_view kBits[] = {"[",
-                                               "]",
-                                               "{",
-                                               "}",
-                                               ":",
-                                               "-",
-                                               "\n",
-                                               "  ",
-                                               "#",
-                                               "&a ",
-                                               "*a",
-                                               "<<: ",
-                                               "~",
-                                               ".nan",
-                                               "'",
-                                               "\"",
-                                               "|",
-                                               "\t",
-                                               "use: a.yaml",
-                                               "1e308",
-                                               "-1",
-                                               "!!str ",
-                                               "---\n",
-                                               "%",
-                                               "\xff",
-                                               std::string_view("\0", 1),
-                                               "? ",
-                                               "99999999999999999999",
-                                               "module: go_to_goal"};
   std::mt19937_64 random(7);
   int loaded = 0, refused = 0;
   for (int i = 0; i < 800; ++i) {
@@ -59,7 +61,7 @@ TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
       const size_t at = random() % text.size();
       switch (random() % 4) {
         case 0:
-          text.insert(at, kBits[random() % std::size(kBits)]);
+          text.insert(at, kYamlBits[random() % std::size(kYamlBits)]);
           break;
         case 1:
           text.erase(at, random() % 12);
