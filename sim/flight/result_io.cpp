@@ -21,8 +21,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kMaxDepth = 50;  // readers and writers of JSON are recursive
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-const RenamedKey kRenamedKeys[] = {{"least_clearance_m", "min_clearance_m"}};
-const RenamedKey kRenamedSceneKeys[] = {{"least_gap_m", "min_gap_m"}};
+/// Keys of the result and of its objects.
+const RenamedKey kRenamedKeys[] = {
+    {"least_clearance_m", "min_clearance_m"}, {"drawn_by", "renderer"}, {"least_gap_m", "min_gap_m"}};
 
 Json approach_json(const ClosestApproach& approach) {
   if (!std::isfinite(approach.distance_m)) return nullptr;
@@ -216,9 +217,7 @@ Json to_json(const RunInfo& info, const FlightResult& result) {
     json["link"] = link_json(*result.link);
     json["time"] = Json{{"link_wait_s", json_number(result.link->waited_s)}};
   }
-  json["metrics"] = Json::object();
-  json["metric_units"] = Json::object();
-  json["metric_kinds"] = Json::object();
+  for (const char* key : {"metrics", "metric_units", "metric_kinds"}) json[key] = Json::object();
   for (const MetricValue& metric : result.metrics) {
     json["metrics"][metric.name] = json_number(metric.value);
     json["metric_units"][metric.name] = metric.unit;
@@ -257,11 +256,12 @@ RunResult result_from_json(const Json& json) {
   flight.checks = checks_from(result);
   flight.trajectory_hash = result.text("trajectory_hash");
   const JsonReader libraries = result.object("libraries");
+  libraries.refuse_renamed(kRenamedKeys);
   flight.libraries = {libraries.text("images"), libraries.text("functions"), libraries.text("others"),
                       libraries.text("renderer")};
   flight.metrics = metrics_from(result);
   const JsonReader scene = result.object("scene");
-  scene.refuse_renamed(kRenamedSceneKeys);
+  scene.refuse_renamed(kRenamedKeys);
   flight.scene = {.solids = static_cast<size_t>(scene.count("obstacles")),
                   .smallest_gap_m = scene.number("min_gap_m", kInfinity),
                   .median_gap_m = scene.number("median_gap_m", kInfinity),

@@ -28,11 +28,15 @@ Eigen::Vector3d StartConfig::draw_p_WB(uint64_t seed) const {
 namespace {
 
 constexpr std::string_view kRenderer = "its name is now 'renderer'";
+constexpr std::string_view kScheme = "it was removed; `scheme: simple` is now `module: zig_zag`";
 constexpr FormerKey kFormerKeys[] = {
     {.path = "drawing", .key = "gl", .advice = kRenderer},
     {.path = "drawing", .key = "context", .advice = kRenderer},
     {.path = "avoidance", .key = "law", .value = "printed", .advice = "its name is now 'published'"},
     {.path = "avoidance", .key = "law", .value = "ours", .advice = "its name is now 'modified'"},
+    {.path = "takeover.avoidance", .key = "law", .value = "printed", .advice = "its name is now 'published'"},
+    {.path = "takeover.avoidance", .key = "law", .value = "ours", .advice = "its name is now 'modified'"},
+    {.path = "avoidance", .key = "scheme", .beside = "spiral_angle", .advice = kScheme},
     {.path = "avoidance", .key = "front_end", .beside = "source", .advice = "its name is now 'source'"},
     {.path = "avoidance", .key = "sight", .beside = "depth", .advice = "its name is now 'depth'"},
     {.path = "avoidance", .key = "rows", .beside = "sections", .advice = "its name is now 'sections'"},

@@ -157,10 +157,17 @@ TEST(ResultIo, RoundTripKeepsAbsentAndNonFiniteValues) {
 }
 
 TEST(ResultIo, RefusesKeysOfEarlierVersionsWithTheNewName) {
-  Json json = to_json(kInfo, distinct_result());
-  json["scene"]["least_gap_m"] = 1.0;
-  EXPECT_THAT(error_of([&] { result_from_json(json); }),
-              AllOf(HasSubstr("scene.least_gap_m"), HasSubstr("scene.min_gap_m")));
+  struct Row {
+    std::string object, before, now;
+  };
+  for (const Row& row : {Row{"scene", "least_gap_m", "min_gap_m"}, Row{"libraries", "drawn_by", "renderer"}}) {
+    Json json = to_json(kInfo, distinct_result());
+    Json& object = json[row.object];
+    object[row.before] = object[row.now];
+    object.erase(row.now);
+    EXPECT_THAT(error_of([&] { result_from_json(json); }),
+                AllOf(HasSubstr(row.object + "." + row.before), HasSubstr(row.object + "." + row.now)));
+  }
 }
 
 // Readers rely on the types in a result. A result changed by hand must not end a campaign.

@@ -58,12 +58,21 @@ TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
         << row.override;
   }
   for (const auto& [law, now] : {std::pair<std::string, std::string>{"printed", "published"}, {"ours", "modified"}}) {
-    EXPECT_THAT(faults_of([&] {
-                  load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.law=" + law});
-                }),
-                ElementsAre(testing::EndsWith("unknown choice '" + law + "' for 'avoidance.law'; its name is now '" +
-                                              now + "'")));
+    for (const std::string path : {"avoidance", "takeover.avoidance"}) {
+      const std::string set = path == "avoidance"
+                                  ? "avoidance.law=" + law
+                                  : "takeover={at: 1, avoidance: {module: flow_balance, law: " + law + "}}";
+      EXPECT_THAT(faults_of([&] { load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector{set}); }),
+                  ElementsAre(testing::EndsWith("unknown choice '" + law + "' for '" + path +
+                                                ".law'; its name is now '" + now + "'")));
+    }
   }
+  EXPECT_THAT(faults_of([] {
+                load_scenario(kConfigs / "garratt2009_city_0.yaml",
+                              std::vector<std::string>{"avoidance.scheme=simple"});
+              }),
+              ElementsAre(testing::EndsWith("unknown key 'scheme' in 'avoidance'; it was removed; `scheme: simple` is "
+                                            "now `module: zig_zag`")));
   // No new name that the module does not have.
   EXPECT_THAT(faults_of([] {
                 load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{"avoidance.rows=9"});
