@@ -60,7 +60,7 @@ class Px4Link : public OutsideAutopilot {
   mavlink::FrameWriter writer_;
   mavlink::AutopilotState autopilot_;
   OutsideCommand command_;  ///< the last controls
-  bool in_lockstep_ = false, is_answered_ = false, has_ended_ = false;
+  bool in_lockstep_ = false, is_answered_ = false;
   int64_t unanswered_in_row_ = 0;
   double next_state_s_ = 0.0;  ///< wall time, before the first answer
   std::vector<uint8_t> messages_in_, messages_out_, state_out_;

@@ -26,13 +26,6 @@ void UlogWriter::add_information(const std::string& key, std::string_view text) 
   put_definition('I', content.append(text));
 }
 
-void UlogWriter::add_parameter(const std::string& name, float value) {
-  std::string content;
-  append_with_length<uint8_t>(content, "float " + name);
-  append(content, value);
-  put_definition('P', content);
-}
-
 uint16_t UlogWriter::add_topic(const std::string& name, const std::string& fields) {
   put_definition('F', fmt::format("{}:uint64_t timestamp;{}", name, fields));
   topics_.push_back(name);

@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 /// Levels of a logged text, as syslog's.
 enum class UlogLevel : char { error = '3', warning = '4', info = '6' };
 
-/// Writes a ULog file [ULog2024] sec. "ULog File Format". The definitions (information, parameters, topics) come first;
+/// Writes a ULog file [ULog2024] sec. "ULog File Format". The definitions (information, topics) come first;
 /// data and texts follow. Functions throw std::runtime_error with the file; a definition after data throws
 /// std::logic_error.
 class UlogWriter {
@@ -23,7 +23,6 @@ class UlogWriter {
   UlogWriter(const std::filesystem::path& file, uint64_t start_us);
 
   void add_information(const std::string& key, std::string_view text);
-  void add_parameter(const std::string& name, float value);
   /// @param fields  after the time stamp, in order: "float[3] p_m;uint8_t valid;". There is no padding.
   /// @return the topic's number.
   uint16_t add_topic(const std::string& name, const std::string& fields);

@@ -109,10 +109,4 @@ UnitPoints latin_hypercube(size_t points, size_t dimensions, uint64_t seed) {
   return drawn;
 }
 
-UnitPoints sobol_points(size_t points, size_t dimensions) {
-  UnitPoints drawn;
-  for (size_t i = 0; i < points; ++i) drawn.push_back(sobol_point(static_cast<uint32_t>(i), dimensions));
-  return drawn;
-}
-
 }  // namespace hedgehop::sim

@@ -24,7 +24,4 @@ UnitPoints random_points(size_t points, size_t dimensions, uint64_t seed);
 /// Source: [McKayBeckmanConover1979] sec. 2.
 UnitPoints latin_hypercube(size_t points, size_t dimensions, uint64_t seed);
 
-/// Returns the first points of Sobol's sequence. Throws std::invalid_argument for too many dimensions.
-UnitPoints sobol_points(size_t points, size_t dimensions);
-
 }  // namespace hedgehop::sim

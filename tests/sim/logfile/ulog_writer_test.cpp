@@ -12,7 +12,6 @@ TEST(UlogWriter, FileHasTheBytesOfTheFormat) {
   const WrittenFile file(fmt::format("hedgehop-{}-all.ulg", ::getpid()));
   UlogWriter log(file.path(), 7);
   log.add_information("k", "ab");
-  log.add_parameter("P", 1.0f);
   const uint16_t topic = log.add_topic("t", "uint8_t x;");
   log.write(topic, 3, "\x05");
   log.write_text(UlogLevel::warning, 4, "hi");
@@ -26,10 +25,6 @@ TEST(UlogWriter, FileHasTheBytesOfTheFormat) {
                 "09"
                 "636861725b325d206b"
                 "6162"  // char[2] k
-                "0c0050"
-                "07"
-                "666c6f61742050"
-                "0000803f" +  // float P
                 "1f0046" +
                 hex("t:uint64_t timestamp;uint8_t x;") +  // format
                 "040041"
