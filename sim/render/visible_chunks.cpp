@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/render/far_details.h"
+
 namespace hedgehop::sim {
 
 Frustum::Frustum(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, double near_m) {
@@ -91,33 +93,6 @@ double plan_distance_m(const Eigen::AlignedBox3f& box_W, const Eigen::Vector2d& 
       .exteriorDistance(eye_NE_m);
 }
 
-/// Selects the far detail of chunks whose full detail the image cannot resolve.
-class FarDetails {
- public:
-  FarDetails(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC)
-      : forward_W_(X_WC.linear().col(2)),
-        eye_m_(forward_W_.dot(X_WC.translation())),
-        z_per_lost_(std::max(camera.focal_x_px, camera.focal_y_px) / kMaxLostPx) {}
-
-  scenes::Chunk detail_for_view(const scenes::Chunk& chunk) const {
-    if (chunk.far.index_count == 0 || nearest_z_m(chunk.box_W) < z_per_lost_ * chunk.far.lost_m) return chunk;
-    scenes::Chunk far = chunk;
-    far.first_index = chunk.far.first_index;
-    far.index_count = chunk.far.index_count;
-    return far;
-  }
-
- private:
-  double nearest_z_m(const Eigen::AlignedBox3f& box_W) const {
-    const double half_m = 0.5 * forward_W_.cwiseAbs().dot(box_W.sizes().cast<double>());
-    return forward_W_.dot(box_W.center().cast<double>()) - half_m - eye_m_;
-  }
-
-  Eigen::Vector3d forward_W_;
-  double eye_m_;
-  double z_per_lost_;
-};
-
 }  // namespace
 
 /// Order of a heap with the nearest node on top. Equal distances are ordered by index.
@@ -139,13 +114,26 @@ bool VisibleChunks::shows(const Eigen::AlignedBox3f& box_W) const {
   return frustum_->may_see(box_W) && (culling_ == Culling::frustum || !horizon_.hides(box_W));
 }
 
-template <class Hides, class Add>
-void VisibleChunks::visit_tiles(const scenes::Chunk& flat, const Hides& hides, const Add& add) const {
+bool VisibleChunks::hidden(const Eigen::AlignedBox3f& box_W) const {
+  return culling_ == Culling::frustum_and_horizon && horizon_.hides(box_W);
+}
+
+void VisibleChunks::add(const scenes::Chunk& stretch) {
+  visible_.push_back(stretch);
+  if (culling_ != Culling::frustum_and_horizon) return;
+  if (stretch.fills_box_to_ground) {
+    horizon_.add_occluder(stretch.box_W);
+  } else if (!stretch.core_W.isEmpty()) {
+    horizon_.add_occluder(stretch.core_W);
+  }
+}
+
+void VisibleChunks::add_tiles(const scenes::Chunk& flat) {
   const auto before = [](const scenes::Chunk& tile, uint32_t index) { return tile.first_index < index; };
   auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), flat.first_index, before);
   scenes::Chunk stretch;
   for (; tile != tiles_.end() && tile->first_index < flat.first_index + flat.index_count; ++tile) {
-    if (culling_ != Culling::none && (!frustum_->may_see(tile->box_W) || hides(tile->box_W))) continue;
+    if (culling_ != Culling::none && (!frustum_->may_see(tile->box_W) || hidden(tile->box_W))) continue;
     if (stretch.index_count > 0 && tile->first_index == stretch.first_index + stretch.index_count) {
       stretch.index_count += tile->index_count;
       stretch.box_W.extend(tile->box_W);
@@ -157,12 +145,14 @@ void VisibleChunks::visit_tiles(const scenes::Chunk& flat, const Hides& hides, c
   if (stretch.index_count > 0) add(stretch);
 }
 
-/// @param hides  returns whether the stretches added so far hide a box.
-template <class Hides, class Add>
-void VisibleChunks::visit(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
-                          const Hides& hides, const Add& add) {
+std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::PinholeCamera& camera,
+                                                   const Eigen::Isometry3d& X_WC, Culling culling) {
+  culling_ = culling;
+  horizon_.reset(X_WC.translation());
+  horizon_.limit_to_view(corner_rays(camera, X_WC));
   const Frustum& frustum = frustum_.emplace(camera, X_WC, kNearPlaneM);
   const FarDetails far_details(camera, X_WC);
+  visible_.clear();
   queue_.clear();
   flat_.clear();
   const auto push = [&](uint32_t node) {
@@ -178,7 +168,7 @@ void VisibleChunks::visit(const vision::camera::PinholeCamera& camera, const Eig
     const ChunkTree::Node& node = tree_.nodes()[queue_.front().index];
     std::pop_heap(queue_.begin(), queue_.end(), IsFarther{});
     queue_.pop_back();
-    if (culling_ == Culling::frustum_and_horizon && hides(node.box_W)) continue;
+    if (hidden(node.box_W)) continue;
     if (node.first_child != 0) {
       push(node.first_child);
       push(node.first_child + 1);
@@ -188,39 +178,8 @@ void VisibleChunks::visit(const vision::camera::PinholeCamera& camera, const Eig
       add(far_details.detail_for_view(chunks_[node.chunk]));
     }
   }
-  const auto hidden = [&](const Eigen::AlignedBox3f& box_W) {
-    return culling_ == Culling::frustum_and_horizon && hides(box_W);
-  };
-  for (const uint32_t chunk : flat_) visit_tiles(chunks_[chunk], hidden, add);
-}
-
-std::span<const scenes::Chunk> VisibleChunks::find(const vision::camera::PinholeCamera& camera,
-                                                   const Eigen::Isometry3d& X_WC, Culling culling) {
-  culling_ = culling;
-  horizon_.reset(X_WC.translation());
-  horizon_.limit_to_view(corner_rays(camera, X_WC));
-  visible_.clear();
-  visit(
-      camera, X_WC, [&](const Eigen::AlignedBox3f& box_W) { return horizon_.hides(box_W); },
-      [&](const scenes::Chunk& stretch) {
-        visible_.push_back(stretch);
-        if (culling_ != Culling::frustum_and_horizon) return;
-        if (stretch.fills_box_to_ground) {
-          horizon_.add_occluder(stretch.box_W);
-        } else if (!stretch.core_W.isEmpty()) {
-          horizon_.add_occluder(stretch.core_W);
-        }
-      });
+  for (const uint32_t chunk : flat_) add_tiles(chunks_[chunk]);
   return visible_;
-}
-
-void VisibleChunks::find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, Culling culling,
-                         VisibilitySink& sink) {
-  culling_ = culling;
-  visit(
-      camera, X_WC, [&](const Eigen::AlignedBox3f& box_W) { return sink.hides(box_W); },
-      [&](const scenes::Chunk& stretch) { sink.add(stretch); });
-  culling_ = std::min(culling, Culling::frustum);  // shows() has no horizon after this call
 }
 
 }  // namespace hedgehop::sim

@@ -58,35 +58,17 @@ class ChunkTree {
 /// Returns whether the chunk is a horizontal sheet, such as the ground or a ceiling.
 inline bool lies_flat(const scenes::Chunk& chunk) { return chunk.box_W.sizes().z() <= 0.01f; }
 
-/// A chunk is drawn as its far detail if each part that the far detail omits is at most this wide in the image, px.
-inline constexpr double kMaxLostPx = 1.0;
-
 /// Finds the chunks of a scene that a view can see. Reuses its memory from view to view.
 class VisibleChunks {
  public:
-  /// Receives the visible chunks of a view one by one, and decides which boxes they hide.
-  class VisibilitySink {
-   public:
-    virtual ~VisibilitySink() = default;
-    /// @param stretch  as returned by find().
-    virtual void add(const scenes::Chunk& stretch) = 0;
-    /// Returns true only if the stretches added so far hide the whole box.
-    virtual bool hides(const Eigen::AlignedBox3f& box_W) const = 0;
-  };
-
   /// @param tiles  the parts of the flat chunks, in the order of first_index.
   VisibleChunks(std::vector<scenes::Chunk> chunks, std::vector<scenes::Chunk> tiles);
 
   /// Returns the stretches of the index buffer to draw. Each stretch is a chunk or its far detail. Upright chunks come
   /// first, from near to far in plan, because they hide the others; then the flat ones, tile by tile. The order does
-  /// not depend on the culling. The choice of far details depends on the focal length and on z in C of the boxes only,
-  /// so that both cameras of a rectified stereo pair draw the same surfaces.
+  /// not depend on the culling.
   std::span<const scenes::Chunk> find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC,
                                       Culling culling);
-
-  /// Passes the same stretches to a sink, which replaces the horizon. Only upright chunks precede calls of hides().
-  void find(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, Culling culling,
-            VisibilitySink& sink);
 
   /// Returns whether the view found last can see a box that is not one of the chunks.
   bool shows(const Eigen::AlignedBox3f& box_W) const;
@@ -98,11 +80,9 @@ class VisibleChunks {
   };
   struct IsFarther;
 
-  template <class Hides, class Add>
-  void visit(const vision::camera::PinholeCamera& camera, const Eigen::Isometry3d& X_WC, const Hides& hides,
-             const Add& add);
-  template <class Hides, class Add>
-  void visit_tiles(const scenes::Chunk& flat, const Hides& hides, const Add& add) const;
+  bool hidden(const Eigen::AlignedBox3f& box_W) const;
+  void add(const scenes::Chunk& stretch);
+  void add_tiles(const scenes::Chunk& flat);
 
   std::vector<scenes::Chunk> chunks_, tiles_;
   ChunkTree tree_;

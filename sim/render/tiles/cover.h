@@ -53,7 +53,11 @@ inline uint64_t pixels_in_front(const Surface& a, const Surface& b, double u, do
 
 /// Inserts pixels of a surface into a tile with its layers. Returns whether any of the pixels is visible.
 inline bool put(Frame& frame, Tile& tile, uint64_t pixels, const TileDepths& w, uint32_t surface, double u, double v) {
-  if ((pixels & tile.covered) != 0) {
+  bool uncovers = false;  // whether layers lose pixels
+  if (w.nearest < tile.farthest) {
+    pixels &= ~tile.covered;
+    if (pixels == 0) return false;
+  } else if ((pixels & tile.covered) != 0) {
     Layer* layer = layers(frame, tile);
     for (uint16_t i = 0; i < tile.count;) {
       const uint64_t both = pixels & layer[i].pixels;
@@ -65,6 +69,7 @@ inline bool put(Frame& frame, Tile& tile, uint64_t pixels, const TileDepths& w, 
           in_front = both & pixels_in_front(frame.surfaces[surface], frame.surfaces[layer[i].surface], u, v);
         }
         layer[i].pixels &= ~in_front;
+        uncovers |= in_front != 0;
         pixels &= ~both | in_front;
         if (layer[i].pixels == 0) {
           layer[i] = layer[--tile.count];
@@ -79,8 +84,11 @@ inline bool put(Frame& frame, Tile& tile, uint64_t pixels, const TileDepths& w, 
   Layer* layer = layers(frame, tile);
   layer[tile.count++] = {pixels, w.nearest, w.farthest, surface};
   tile.covered |= pixels;
-  tile.farthest = 0.0f;
-  if (~tile.covered == 0) {
+  if (tile.count == 1) {
+    tile.farthest = w.farthest;
+  } else if (!uncovers) {
+    tile.farthest = w.farthest < tile.farthest ? w.farthest : tile.farthest;
+  } else {
     float farthest = layer[0].farthest;
     for (uint16_t i = 1; i < tile.count; ++i) farthest = layer[i].farthest < farthest ? layer[i].farthest : farthest;
     tile.farthest = farthest;
@@ -114,7 +122,7 @@ inline bool cover(Frame& frame, Tile* tiles, const FacetSetUp& facet, const Samp
       w.at_first = static_cast<float>(offset + plane.right * u + plane.down * v);
       w.nearest = w.at_first + middle + half;
       w.nearest = w.nearest < facet.nearest ? w.nearest : facet.nearest;
-      if (w.nearest < tile->farthest) continue;
+      if (w.nearest < tile->farthest && ~tile->covered == 0) continue;
       w.farthest = w.at_first + middle - half;
       w.farthest = w.farthest > facet.farthest ? w.farthest : facet.farthest;
       uint64_t pixels = ~uint64_t{0};
@@ -162,8 +170,17 @@ inline void draw(Frame& frame, const FacetShape& shape, uint32_t facet, uint32_t
   frame.surface_count += visible ? 1 : 0;
 }
 
+/// Requests the first facets of a stretch from memory, which is slower than drawing them.
+inline void prefetch(const FacetShape* shapes, uint32_t count) {
+  constexpr size_t kLineBytes = 64, kMaxBytes = 1024;
+  const size_t bytes = count * sizeof(FacetShape);
+  const auto* const from = reinterpret_cast<const char*>(shapes);
+  for (size_t at = 0; at < bytes && at < kMaxBytes; at += kLineBytes) __builtin_prefetch(from + at);
+}
+
 /// Draws `count` facets of the scene from index `first`.
 inline void draw(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t pose, double near_m) {
+  prefetch(scene.shapes + first, count);
   for (const uint32_t end = first + count; first < end; first += 8) {
     uint32_t faces = facing(scene.planes_of_facets, first, frame.poses[pose]);
     if (end - first < 8) faces &= (1u << (end - first)) - 1;

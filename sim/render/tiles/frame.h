@@ -56,7 +56,7 @@ struct Layer {
 /// A tile of pixels. One cache line.
 struct alignas(64) Tile {
   uint64_t covered;  ///< pixels of the layers, and pixels outside the image
-  float farthest;    ///< 1 / z, 1/m: surfaces behind it are hidden; 0 while a pixel is not covered
+  float farthest;    ///< min 1 / z of the layers, 1/m: they hide surfaces behind it; 0 without layers
   uint16_t count;    ///< of layers
   uint16_t capacity;
   union {

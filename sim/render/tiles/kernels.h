@@ -12,9 +12,35 @@ struct ImageMemory {
   size_t step;  ///< bytes per row
 };
 
-/// An axis-aligned box in the frame of the facets.
-struct Box {
-  float low_m[3], high_m[3];
+/// Eight axis-aligned boxes in the frame of the facets, as lanes of vectors.
+struct alignas(32) EightBoxes {
+  float low_m[3][8], high_m[3][8];
+};
+
+/// The pixels around a box, both ends included, and its max 1 / z, 1/m; infinite for a box that crosses the near plane,
+/// which has no pixels.
+struct PixelBox {
+  int left, right, top, bottom;
+  float nearest;
+};
+
+/// Error bound of the float operations on boxes, relative to their distance.
+inline constexpr float kFloatError = 1e-6f;
+
+/// A camera as boxes in W or M need it.
+struct BoxCamera {
+  float eye_m[3], eye_rest_m[3];  ///< position of C as a sum of two floats
+  float R_CW[3][3];
+  float sides[4][3];     ///< inward normals of the sides of the image with a margin of one pixel
+  float side_errors[4];  ///< error bound of a product with a normal, relative to the distance
+  float focal_px[2], center_px[2];
+  float near_m;
+};
+
+/// Eight boxes as a camera sees them.
+struct EightViews {
+  PixelBox pixels[8];
+  alignas(32) float distance2_m2[8];  ///< square of the horizontal distance
 };
 
 /// Pose of C in Cn, C at the time of the next image, for points fixed in the frame of one of Frame::poses.
@@ -31,7 +57,12 @@ struct Kernels {
   void (*draw)(Frame& frame, const SceneView& scene, uint32_t first, uint32_t count, uint32_t pose, double near_m);
 
   /// Returns true only if the facets drawn so far hide the whole box.
-  bool (*hides)(const Frame& frame, const ViewPose& pose, const Box& box, double near_m);
+  bool (*hides_pixels)(const Frame& frame, const PixelBox& box);
+
+  /// Returns which of eight boxes the image may show, lane 0 in the lowest bit, and sets their views.
+  /// @param lanes  boxes to test. @param behind_facets  whether boxes behind the facets drawn so far are included.
+  uint32_t (*see)(const Frame& frame, const BoxCamera& camera, const EightBoxes& boxes, uint32_t lanes,
+                  bool behind_facets, EightViews& views);
 
   /// Writes the image. Several samples per pixel for grey and color only.
   void (*finish)(const SceneView& scene, Frame& frame, Raster raster, const ImageMemory& image);

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <stdexcept>
 
+#include "sim/render/tiles/box_camera.h"
 #include "sim/render/tiles/sun_depths.h"
 #include "sim/render/true_flow.h"
 #include "sim/render/visible_chunks.h"
@@ -29,8 +32,22 @@ ViewPose pose_at(const Eigen::Isometry3d& X_MC) {
 
 constexpr uint32_t kWorldPose = 0;
 
-Box box_of(const Eigen::AlignedBox3f& box) {
-  return {{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}};
+/// Returns a box in the first lane.
+EightBoxes in_first_lane(const Eigen::AlignedBox3f& box) {
+  EightBoxes boxes{};
+  for (int i = 0; i < 3; ++i) {
+    boxes.low_m[i][0] = box.min()[i];
+    boxes.high_m[i][0] = box.max()[i];
+  }
+  return boxes;
+}
+
+/// Requests an object from memory before it is needed.
+template <class Object>
+void prefetch(const Object& object) {
+  constexpr size_t kLineBytes = 64;
+  const auto* const from = reinterpret_cast<const char*>(&object);
+  for (size_t at = 0; at < sizeof(object); at += kLineBytes) __builtin_prefetch(from + at);
 }
 
 }  // namespace
@@ -39,7 +56,6 @@ TileRenderer::TileRenderer(const scenes::Scene& scene, Culling culling, Shadows 
     : kernels_(chosen_kernels()),
       culling_(culling),
       geometry_(make_geometry(scene)),
-      visible_(geometry_.chunks, geometry_.tiles),
       facets_(make_facets(geometry_)),
       texels_(scene.textures),
       sky_(scene.sky),
@@ -55,6 +71,26 @@ TileRenderer::TileRenderer(const scenes::Scene& scene, Culling culling, Shadows 
   }
   geometry_.vertices = {};
   geometry_.indices = {};
+  std::erase_if(geometry_.chunks,
+                [](const scenes::Chunk& chunk) { return lies_flat(chunk) || chunk.index_count == 0; });
+  upright_ = stretches_of(geometry_.chunks);
+  flat_ = stretches_of(geometry_.tiles);
+  queue_.reserve(std::max(geometry_.chunks.size(), geometry_.tiles.size()));
+  geometry_.chunks = {};
+  geometry_.tiles = {};
+}
+
+TileRenderer::Stretches TileRenderer::stretches_of(const std::vector<scenes::Chunk>& chunks) const {
+  std::vector<Eigen::AlignedBox3f> boxes_W;
+  for (const scenes::Chunk& chunk : chunks) boxes_W.push_back(chunk.box_W);
+  Stretches stretches{BoxTree(boxes_W), {}};
+  for (const uint32_t index : stretches.tree.leaves()) {
+    const scenes::Chunk& chunk = chunks[index];
+    stretches.of_leaf.push_back({chunk.box_W, chunk.far, chunk.index_count,
+                                 facets_.range(chunk.first_index, chunk.index_count),
+                                 facets_.range(chunk.far.first_index, chunk.far.index_count)});
+  }
+  return stretches;
 }
 
 void TileRenderer::color_scene(bool color) {
@@ -105,22 +141,59 @@ void TileRenderer::draw_scene(const vision::camera::PinholeCamera& camera, const
   view_.world = pose_at(view.X_WC);
   memory_.begin(lens_of(camera), samples);
   memory_.add_pose(view_.world);
-  visible_.find(camera, view.X_WC, culling_, *this);
+  const BoxCamera boxes = box_camera(memory_.frame().lens, view_.world, kNearPlaneM);
+  const FarDetails far_details(camera, view.X_WC);
+  draw(upright_, boxes, far_details);
+  draw(flat_, boxes, far_details);
   draw_movers(view);
 }
 
-void TileRenderer::draw(const scenes::Chunk& stretch, uint32_t pose) {
-  const Facets::FacetRange range = facets_.range(stretch.first_index, stretch.index_count);
-  memory_.reserve_surfaces(range.count);
-  kernels_.draw(memory_.frame(), view_, range.first, range.count, pose, kNearPlaneM);
+void TileRenderer::draw(Facets::FacetRange facets, uint32_t index_count, uint32_t pose) {
+  memory_.reserve_surfaces(facets.count);
+  kernels_.draw(memory_.frame(), view_, facets.first, facets.count, pose, kNearPlaneM);
   ++count_.stretches;
-  count_.triangles += stretch.index_count / 3;
+  count_.triangles += index_count / 3;
 }
 
-void TileRenderer::add(const scenes::Chunk& stretch) { draw(stretch, kWorldPose); }
-
-bool TileRenderer::hides(const Eigen::AlignedBox3f& box_W) const {
-  return kernels_.hides(memory_.frame(), memory_.frame().poses[kWorldPose], box_of(box_W), kNearPlaneM);
+/// Draws the stretches that the image may show, roughly from near to far, because each may hide others behind it.
+void TileRenderer::draw(const Stretches& stretches, const BoxCamera& boxes, const FarDetails& far_details) {
+  const std::span<const BoxTree::Node> nodes = stretches.tree.nodes();
+  const Frame& frame = memory_.frame();
+  const auto push_children = [&](const BoxTree::Node& node) {
+    EightViews views;
+    uint32_t seen = node.lanes;
+    if (culling_ != Culling::none) {
+      seen = kernels_.see(frame, boxes, node.boxes_W, node.lanes, culling_ == Culling::frustum, views);
+    } else {
+      views = {};
+    }
+    for (; seen != 0; seen &= seen - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(seen));
+      const uint32_t child = node.children[lane];
+      if ((child & BoxTree::kLeaf) != 0) {
+        prefetch(stretches.of_leaf[child & ~BoxTree::kLeaf]);
+      } else {
+        prefetch(nodes[child]);
+      }
+      queue_.push(child, frame.surface_count, views.pixels[lane], views.distance2_m2[lane]);
+    }
+  };
+  if (!nodes.empty()) push_children(nodes.front());
+  while (!queue_.empty()) {
+    const BoxQueue::Entry entry = queue_.pop();
+    const bool tested = culling_ != Culling::frustum_and_horizon || entry.drawn == frame.surface_count;
+    if (!tested && kernels_.hides_pixels(frame, entry.pixels)) continue;
+    if ((entry.child & BoxTree::kLeaf) == 0) {
+      push_children(nodes[entry.child]);
+      continue;
+    }
+    const Stretch& stretch = stretches.of_leaf[entry.child & ~BoxTree::kLeaf];
+    if (far_details.suffices(stretch.far, stretch.box_W)) {
+      draw(stretch.far_facets, stretch.far.index_count, kWorldPose);
+    } else {
+      draw(stretch.facets, stretch.index_count, kWorldPose);
+    }
+  }
 }
 
 /// Each moving obstacle is drawn as static in its frame M, with the camera at X_MC.
@@ -130,13 +203,16 @@ void TileRenderer::draw_movers(const Viewpoint& view) {
     Eigen::Isometry3d X_MC = Eigen::Isometry3d::Identity();
     X_MC.linear() = X_WM.linear().transpose() * view.X_WC.linear();
     X_MC.translation() = X_WM.linear().transpose() * (view.X_WC.translation() - X_WM.translation());
-    memory_.add_pose(pose_at(X_MC));
+    const ViewPose pose = pose_at(X_MC);
+    memory_.add_pose(pose);
+    const BoxCamera boxes = box_camera(memory_.frame().lens, pose, kNearPlaneM);
     const auto index = static_cast<uint32_t>(1 + mover);
     for (const scenes::Chunk& chunk : geometry_.mover_chunks[mover]) {
-      const tiles::ViewPose& seen_from = memory_.frame().poses[index];
-      const bool may_hide = culling_ != Culling::none;
-      if (may_hide && kernels_.hides(memory_.frame(), seen_from, box_of(chunk.box_W), kNearPlaneM)) continue;
-      draw(chunk, index);
+      EightViews views;
+      const bool seen = culling_ == Culling::none || kernels_.see(memory_.frame(), boxes, in_first_lane(chunk.box_W), 1,
+                                                                  culling_ == Culling::frustum, views) != 0;
+      if (!seen) continue;
+      draw(facets_.range(chunk.first_index, chunk.index_count), chunk.index_count, index);
     }
   }
 }
