@@ -121,12 +121,6 @@ void Autopilot::reset(const NavigationEstimate& now) {
   anchor_.reset();
 }
 
-Eigen::Vector3d Autopilot::reference_v_WB_W() const {
-  Eigen::Vector3d v;
-  v << rotate(reference_[HoverModel::kHeading], reference_.head<2>()), reference_[HoverModel::kDown];
-  return v;
-}
-
 Autopilot::Target Autopilot::target(const VelocitySetpoint& s, const NavigationEstimate&) {
   return {.v_WB_W = clamp_norm(s.v_WB_W, config_.speed_limit_mps),
           .altitude_m = s.altitude_m,

@@ -73,8 +73,6 @@ class Autopilot {
   Controls control(const Setpoint& setpoint, const NavigationEstimate& now, double dt_s);
 
   const HoverModel& model() const { return model_; }
-  /// The reference flight's velocity, north, east, down, m/s.
-  Eigen::Vector3d reference_v_WB_W() const;
 
  private:
   /// A setpoint of any kind, as input of the reference flight.

@@ -5,7 +5,7 @@
 /// Linear-quadratic design for sampled systems of moderate size; matrices are on the stack.
 namespace hedgehop::dynamics::control {
 
-inline constexpr int kMaxStates = 32, kMaxInputs = 8;
+inline constexpr int kMaxStates = 32;
 using DesignMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxStates, kMaxStates>;
 using DesignVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStates, 1>;
 

@@ -41,9 +41,6 @@ class PlaneSweep {
   /// @param current, key  smooth() images. @return none() if the camera did not move.
   InverseDepth match(const cv::Mat& current, const cv::Mat& key, const CameraMotion& motion);
 
-  /// Returns the maximum inverse depth that match() finds, 1/m.
-  double reach_per_m(const Eigen::Vector3d& p_CCk) const { return kPlanes * spacing_per_m(p_CCk); }
-
  private:
   static constexpr int kPlanes = 64;  ///< in front of the camera
   static constexpr int kBeyond = 4;   ///< behind infinity, to interpolate there
