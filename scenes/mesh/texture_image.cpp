@@ -29,7 +29,7 @@ cv::Mat decode_png(std::span<const uint8_t> bytes) {
 
 cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {
   const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
-  const auto size = static_cast<unsigned long>(bytes.size());  // NOLINT(google-runtime-int): turbojpeg's type
+  const auto size = static_cast<unsigned long>(bytes.size());  // turbojpeg's type
   int width = 0, height = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &color_space) != 0)
     return {};

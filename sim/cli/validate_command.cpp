@@ -133,7 +133,7 @@ class Validator {
   }
 
   int conclude() const {
-    fmt::print("{} files: {} valid, {} invalid\n", valid_ + invalid_, valid_, invalid_);
+    fmt::print("{}: {} valid, {} invalid\n", counted(valid_ + invalid_, "file"), valid_, invalid_);
     if (!options_.junit.empty()) write_junit(options_.junit, junit_of_bad_input(faults_, junit_origin()));
     return invalid_ == 0 ? 0 : kBadInput;
   }

@@ -140,7 +140,7 @@ std::string jpeg_of(const cv::Mat& rgb, int quality) {
   CV_Assert(rgb.type() == CV_8UC3);
   const std::unique_ptr<void, int (*)(tjhandle)> encoder(tjInitCompress(), tjDestroy);
   unsigned char* bytes = nullptr;
-  unsigned long size = 0;  // NOLINT(google-runtime-int): turbojpeg's type
+  unsigned long size = 0;  // turbojpeg's type
   const int fault = tjCompress2(encoder.get(), rgb.data, rgb.cols, static_cast<int>(rgb.step), rgb.rows, TJPF_RGB,
                                 &bytes, &size, TJSAMP_420, quality, 0);
   const std::unique_ptr<unsigned char, void (*)(unsigned char*)> freed(bytes, tjFree);

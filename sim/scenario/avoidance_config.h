@@ -18,6 +18,17 @@ namespace hedgehop::sim {
 
 struct ConfigOutline;
 
+/// The keys of a module's process, of PluginConfig and PythonConfig.
+template <class Visitor, class Config>
+void describe_process(Visitor& v, Config& c) {
+  v("limit", c.limit_s,
+    {.unit = "s",
+     .above = 0.0,
+     .at_most = 3600.0,
+     .meaning = "maximum wall time of a call; a slower module counts as hung"});
+  v("in_process", c.in_process, {.meaning = "whether it runs in the simulator's process, without protection"});
+}
+
 /// A module from a shared library. The library's own description reads its parameters at the start of a flight, because
 /// reading a scenario loads no foreign code.
 struct PluginConfig {
@@ -35,12 +46,7 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PluginConfig> auto& c) {
   v("plugin", c.plugin, {.required = true, .meaning = "shared library, relative to this file"});
   v("module", c.module, {.required = true, .meaning = "module of the library"});
-  v("limit", c.limit_s,
-    {.unit = "s",
-     .above = 0.0,
-     .at_most = 3600.0,
-     .meaning = "maximum wall time of a call; a slower module counts as hung"});
-  v("in_process", c.in_process, {.meaning = "whether it runs in the simulator's process, without protection"});
+  describe_process(v, c);
   v("parameters", c.parameters, {.meaning = "the module's own parameters"});
 }
 
@@ -60,12 +66,7 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PythonConfig> auto& c) {
   v("python", c.python, {.required = true, .meaning = "source file, relative to this file"});
   v("class", c.class_name, {.required = true, .meaning = "class of the module"});
-  v("limit", c.limit_s,
-    {.unit = "s",
-     .above = 0.0,
-     .at_most = 3600.0,
-     .meaning = "maximum wall time of a call; a slower module counts as hung"});
-  v("in_process", c.in_process, {.meaning = "whether it runs in the simulator's process, without protection"});
+  describe_process(v, c);
   v("parameters", c.parameters, {.meaning = "keyword arguments of the class"});
 }
 
@@ -76,7 +77,7 @@ class AvoidanceConfig {
   struct Choice;  ///< the parameters of one module (avoidance_choice.h)
 
   AvoidanceConfig();               ///< the control: straight to the goal
-  AvoidanceConfig(Choice choice);  // NOLINT(google-explicit-constructor): a choice is one
+  AvoidanceConfig(Choice choice);  // implicit, because a choice is a configuration
   const Choice& choice() const { return *choice_; }
 
   /// Returns the name of the module in scenarios.
