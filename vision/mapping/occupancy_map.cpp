@@ -19,9 +19,9 @@ constexpr int kMinLogOdds = -9,
 constexpr int kFreeBelow = -4, kOccupiedFrom = 5;
 constexpr double kSigmas = 2.0;
 // A thin object reduces the evidence for free space along its ray: within two sigma of its matched depth or, unmatched
-// in front of the sky, beyond the range at which it would be matched. After three images the voxels are unknown, but
-// not occupied.
-constexpr int kDoubt = 2;
+// in front of the sky, beyond the range at which it would be matched. Unmatched, it makes voxels unknown after three
+// images. Matched, it occupies free voxels after four: no margin is kept from unknown ones.
+constexpr int kDoubt = 2, kMatchedInFree = 5;
 constexpr float kSurelyMatchedM = 4.0F;
 // Bits of marks_.
 constexpr uint8_t kHitNow = 1, kDoubted = 2;
@@ -31,6 +31,11 @@ constexpr double kPlacedM = 0.25, kReportedM = 1.0;
 int modulo(int a, int n) {
   const int m = a % n;
   return m < 0 ? m + n : m;
+}
+
+bool is_within(std::span<const OccupancyMap::MovingDisc> discs, const Eigen::Vector3d& p_W) {
+  return std::ranges::any_of(discs,
+                             [&](const auto& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; });
 }
 
 /// View of a row of voxels: its first center in C, the distance between centers, and the image in blocks.
@@ -132,7 +137,7 @@ void OccupancyMap::integrate(const DepthBlocks& blocks, const stereo::StereoGeom
   }
   find_clear(blocks, geometry);
   add_hits(blocks, geometry, X_WC, moving);
-  add_misses(blocks, geometry, X_WC);
+  add_misses(blocks, geometry, X_WC, moving);
   for (const size_t slot : hit_slots_) marks_[slot] &= kDoubted;
 }
 
@@ -155,7 +160,7 @@ void OccupancyMap::find_clear(const DepthBlocks& blocks, const stereo::StereoGeo
       if (block.kind == DepthBlock::Kind::line) {
         doubt = {kSurelyMatchedM, std::numeric_limits<float>::max()};
       } else if (block.thin) {
-        doubt = {z_m(block.near16 + beyond16(block)), z_m(block.near16 - beyond16(block))};
+        doubt = {z_m(block.near16 + beyond16(block)), z_m(block.near16 - beyond16(block)), true};
       }
       if (block.kind != DepthBlock::Kind::matched && block.kind != DepthBlock::Kind::sky &&
           block.kind != DepthBlock::Kind::plain) {
@@ -201,8 +206,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
       if ((marks_[at] & kHitNow) != 0) continue;
       if (!assumed && !block.thin) hits_.push_back({p_W, log_odds_[at] <= kFreeBelow});
       if (near16 < min_disparity16(block, kPlacedM)) continue;
-      const auto holds = [&](const MovingDisc& disc) { return (p_W.head<2>() - disc.p_W).norm() < disc.radius_m; };
-      if (std::ranges::any_of(moving, holds)) continue;
+      if (is_within(moving, p_W)) continue;
       marks_[at] |= kHitNow;
       hit_slots_.push_back(at);
       log_odds_[at] = static_cast<int8_t>(std::min(kMaxLogOdds, log_odds_[at] + kHit));
@@ -212,7 +216,7 @@ void OccupancyMap::add_hits(const DepthBlocks& blocks, const stereo::StereoGeome
 
 /// Updates the voxels that are completely in front of the end of their block's ray, and those behind a thin object.
 void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry,
-                              const Eigen::Isometry3d& X_WC) {
+                              const Eigen::Isometry3d& X_WC, std::span<const MovingDisc> moving) {
   const Eigen::Isometry3d X_CW = X_WC.inverse();
   const auto half_m = static_cast<float>(0.5 * config_.voxel_m);
   RowView view{.p_C = {},
@@ -243,7 +247,9 @@ void OccupancyMap::add_misses(const DepthBlocks& blocks, const stereo::StereoGeo
         if (z_m[voxel] + half_m <= clear_m_[of] && marks_[at] == 0) {
           odds = static_cast<int8_t>(std::max(kMinLogOdds, odds + kMiss));
         } else if (z_m[voxel] > doubts_[of].from_m && z_m[voxel] < doubts_[of].to_m) {
-          if (odds < 0) odds = static_cast<int8_t>(std::min(0, odds + kDoubt));
+          const bool fixed = doubts_[of].matched && !is_within(moving, center({x, first_.y() + i, z}));
+          const int most = fixed ? kOccupiedFrom : 0, step = fixed && odds <= kFreeBelow ? kMatchedInFree : kDoubt;
+          if (odds < most) odds = static_cast<int8_t>(std::min(most, odds + step));
           if ((marks_[at] & kDoubted) != 0) continue;
           marks_[at] |= kDoubted;
           doubted_slots_.push_back(at);

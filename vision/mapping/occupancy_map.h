@@ -83,7 +83,8 @@ class OccupancyMap {
   void find_clear(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry);
   void add_hits(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
                 std::span<const MovingDisc> moving);
-  void add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC);
+  void add_misses(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
+                  std::span<const MovingDisc> moving);
 
   OccupancyMapConfig config_;
   Index first_ = Index::Zero();
@@ -95,6 +96,7 @@ class OccupancyMap {
   /// Range of z in C in which a thin object reduces the evidence for free space; empty if from >= to.
   struct Doubt {
     float from_m, to_m;
+    bool matched = false;  ///< whether the object has a depth
   };
   std::vector<Doubt> doubts_;  ///< of each block
 };
