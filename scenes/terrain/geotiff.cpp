@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "scenes/mesh/tiff_memory.h"
@@ -17,12 +18,22 @@ constexpr uint32_t kPixelScale = 33550, kTiepoints = 33922, kTransformation = 34
 constexpr uint16_t kModelTypeKey = 1024, kRasterTypeKey = 1025;
 constexpr uint16_t kGeographic = 2, kPixelIsPoint = 2;
 
+/// The type of the values of a tag in the file [GeoTIFF11].
+template <class T>
+constexpr TIFFDataType kDataType = std::is_same_v<T, double>     ? TIFF_DOUBLE
+                                   : std::is_same_v<T, uint16_t> ? TIFF_SHORT
+                                                                 : TIFF_ASCII;
+
 /// Returns the values of a tag that libtiff itself does not know. Their form depends on whether another library of the
 /// process has declared it.
 template <class T>
 std::vector<T> tag_values(TIFF* tiff, uint32_t tag) {
   const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
   if (!field) return {};
+  if (TIFFFieldDataType(field) != kDataType<T>) {  // the values would be read past their end
+    throw std::invalid_argument("its tag " + std::to_string(tag) + " has the data type " +
+                                std::to_string(TIFFFieldDataType(field)) + "; valid: " + std::to_string(kDataType<T>));
+  }
   T* values = nullptr;
   if (TIFFFieldPassCount(field) == 0) {  // text
     if (TIFFGetField(tiff, tag, &values) == 0 || !values) return {};

@@ -151,6 +151,10 @@ TEST_F(Terrain, FaultsAreOneLine) {
   fails({.heightmap = write("degrees.tif", georeferenced(2))}, "its coordinates are degrees; valid: a projection in");
   fails({.heightmap = write("far.tif", georeferenced())},
         "its middle is 448270 m east and 5262002 m north; subtract it with scene.origin");
+  const std::string short_tiepoints =
+      tiff_of(cv::Mat_<float>(4, 5, 0.0f),
+              {field<double>(33550, 12, {4.0, 4.0, 0.0}), field<uint16_t>(33922, 3, {0, 0, 0, 1, 2, 0})});
+  fails({.heightmap = write("short.tif", short_tiepoints)}, "its tag 33922 has the data type 3; valid: 12");
   fails({.heightmap = write("text.tif", "no image"), .spacing_m = 1.0}, "it is no PNG and no TIFF");
   std::string cut = georeferenced();
   cut.resize(60);
