@@ -20,12 +20,13 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/mesh/dae_check.h"
+
 namespace hedgehop::scenes::mesh {
 
 namespace {
 
 constexpr uintmax_t kMaxBytes = 256'000'000;
-constexpr int kMaxNesting = 200;  // readers of JSON and XML recurse
 constexpr std::array<std::string_view, 6> kSuffixes{".obj", ".gltf", ".glb", ".dae", ".ply", ".stl"};
 
 /// Returns the depth of nested brackets outside strings.
@@ -45,40 +46,6 @@ int json_nesting(std::string_view json) {
     }
   }
   return deepest;
-}
-
-/// Returns the depth of nested elements, counting every tag.
-int xml_nesting(std::string_view xml) {
-  int now = 0, deepest = 0;
-  for (size_t i = xml.find('<'); i != std::string_view::npos; i = xml.find('<', i + 1)) {
-    const char next = i + 1 < xml.size() ? xml[i + 1] : '>';
-    if (next == '?' || next == '!') continue;
-    const size_t end = xml.find('>', i);
-    if (next == '/') {
-      --now;
-    } else if (end == std::string_view::npos || xml[end - 1] != '/') {
-      deepest = std::max(deepest, ++now);
-    }
-  }
-  return deepest;
-}
-
-/// Returns whether a list of indices in a DAE has another character than digits, signs and spaces. The importer would
-/// not end.
-bool has_bad_indices(std::string_view dae) {
-  for (const std::string_view element : {"p", "v", "vcount"}) {
-    const std::string opening = "<" + std::string(element);
-    for (size_t at = dae.find(opening); at != std::string_view::npos; at = dae.find(opening, at + 1)) {
-      const size_t after = at + opening.size();
-      if (after >= dae.size() || (dae[after] != '>' && !std::isspace(static_cast<unsigned char>(dae[after])))) continue;
-      const size_t first = dae.find('>', after);
-      if (first == std::string_view::npos || dae[first - 1] == '/') continue;
-      const size_t last = std::min(dae.find('<', first), dae.size());
-      const std::string_view indices = dae.substr(first + 1, last - first - 1);
-      if (indices.find_first_not_of("0123456789+- \t\r\n") != std::string_view::npos) return true;
-    }
-  }
-  return false;
 }
 
 /// Returns whether each line of the header of a PLY begins with a keyword, up to `end_header`. Without, the importer
@@ -172,13 +139,13 @@ std::string require_importable(const std::filesystem::path& mesh) {
   refuse_if((suffix == ".obj" || is_gltf) && is_utf16, "it is text in UTF-16; valid: UTF-8");
   refuse_if(is_gltf && is_old_binary(text), "it is a binary glTF of version 1; valid: version 2");
   refuse_if(suffix == ".glb" && !has_chunks(text), "it is no binary glTF 2, or is shorter than its chunks");
-  const std::string too_deep = "is nested deeper than " + std::to_string(kMaxNesting);
   if (is_gltf) {
     const bool is_binary = text.starts_with("glTF");
-    refuse_if(json_nesting(is_binary ? json_of_glb(text) : text) > kMaxNesting, "its JSON " + too_deep);
+    refuse_if(json_nesting(is_binary ? json_of_glb(text) : text) > kMaxNesting,
+              "its JSON is nested deeper than " + std::to_string(kMaxNesting));
   }
-  refuse_if(suffix == ".dae" && xml_nesting(text) > kMaxNesting, "its XML " + too_deep);
-  refuse_if(suffix == ".dae" && has_bad_indices(text), "its indices (<p>, <v> or <vcount>) are not whole numbers");
+  const std::string dae_fault = suffix == ".dae" ? fault_of_dae(text) : "";
+  refuse_if(!dae_fault.empty(), dae_fault);
   refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
   return suffix == ".obj" && text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;

@@ -124,5 +124,25 @@ TEST_F(MeshFormats, ReadsColladaWithItsUnitAndAxis) {
               ThrowsMessage<E>(HasSubstr("empty.dae': it has no triangles")));
 }
 
+// The importer itself would read past the array, or through a null pointer.
+TEST_F(MeshFormats, RefusesColladaWhoseArraysAreTooShort) {
+  const auto refuses = [&](const std::string& text, const std::string& by) {
+    std::string changed = kCollada;
+    changed.replace(changed.find(text), text.size(), by);
+    EXPECT_THAT([&] { imported({.file = write("short.dae", changed)}); },
+                ThrowsMessage<E>(HasSubstr("short.dae': an <accessor> reads more numbers than")))
+        << by;
+  };
+  refuses(R"(count="9")", "");
+  refuses(R"(count="9">0 0 100)", R"(count="6">)");
+  refuses(R"(count="3" stride="3")", R"(count="4" stride="3")");
+  refuses(R"(count="3" stride="3")", R"(count="3" stride="4")");
+  refuses(R"(count="3" stride="3")", R"(count="3" stride="3" offset="1")");
+  std::string names = kCollada;
+  for (size_t at = 0; (at = names.find("float_array", at)) != std::string::npos;) names.replace(at, 11, "Name_array");
+  EXPECT_THAT([&] { imported({.file = write("names.dae", names)}); },
+              ThrowsMessage<E>(HasSubstr("names.dae': an <accessor> reads more numbers than")));
+}
+
 }  // namespace
 }  // namespace hedgehop::scenes::mesh
