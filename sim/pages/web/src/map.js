@@ -1,7 +1,7 @@
 'use strict';
 // Plan view of a scene to scale: north up, east right, meters. Other files draw the flights.
 
-const mapMargin = {left: 46, right: 12, top: 12, bottom: 34};
+const mapMargin = {left: 56, right: 12, top: 12, bottom: 34};
 
 function placeText(north, east) {
   return `north ${fixed(north, 1)} m, east ${fixed(east, 1)} m`;
