@@ -50,10 +50,11 @@ struct CaseCounts {
 /// One test case. If it did not pass, an element of its own says so.
 struct Case {
   std::string name, facts;
-  std::string wrong = {};    ///< "failure", "error", "skipped" or ""
-  std::string type = {};     ///< of the element
-  std::string message = {};  ///< of the element, one line
-  bool is_complete = false;  ///< whether the facts contain the message; otherwise the body has both
+  std::string wrong = {};        ///< "failure", "error", "skipped" or ""
+  std::string type = {};         ///< of the element
+  std::string message = {};      ///< of the element, one line
+  bool is_complete = false;      ///< whether the facts contain the message; otherwise the body has both
+  std::string attachments = {};  ///< lines of system-out only
 };
 
 struct Suite {
@@ -99,7 +100,7 @@ void write_case(pugi::xml_node suite, const std::string& suite_name, const std::
     const bool complete = c.is_complete || c.facts.find(c.message) != std::string::npos;
     wrong.text().set(xml_text(complete ? c.facts : c.message + "\n" + c.facts).c_str());
   }
-  node.append_child("system-out").text().set(xml_text(c.facts).c_str());
+  node.append_child("system-out").text().set(xml_text(c.facts + c.attachments).c_str());
 }
 
 void write_suite(pugi::xml_node parent, const Suite& suite, const JUnitOrigin& origin) {
@@ -191,6 +192,16 @@ Case check_case(const CheckResult& check, const std::string& flight, const std::
   return one;
 }
 
+/// Attaches files to each failed case, because GitLab reads those of a failed case only, and of each the first one.
+void attach(std::vector<Case>& cases, const std::vector<std::string>& files) {
+  std::string lines;
+  for (const std::string& file : files) lines += fmt::format("\n[[ATTACHMENT|{}]]", file);
+  const auto failed = [](const Case& c) { return c.wrong == "failure" || c.wrong == "error"; };
+  const bool any = std::ranges::any_of(cases, failed);
+  for (Case& one : cases) one.attachments = failed(one) ? lines : "";
+  if (!any) cases.front().attachments = lines;  // checks over the seeds decide
+}
+
 Suite flight_suite(const FlightRecord& record, bool binding, const Attachments& attachments) {
   const Order& order = record.order;
   const std::string again = "re-run: " + rerun_command(order);
@@ -213,14 +224,12 @@ Suite flight_suite(const FlightRecord& record, bool binding, const Attachments& 
   if (!order.fault.empty()) facts = fmt::format("{}\n{}", order.fault, fmt::join(order.more_faults, "\n"));
   if (record.result && record.result->flight.goal_missed_unchecked)
     facts += fmt::format("\nwarning: {}", kGoalMissedUnchecked);
-  if (const auto files = attachments.find(order.id); files != attachments.end()) {
-    for (const std::string& file : files->second) facts += fmt::format("\n[[ATTACHMENT|{}]]", file);
-  }
   suite.cases.push_back(flight_case(record, facts));
   if (!record.result) return suite;
   for (const CheckResult& check : record.result->flight.checks) {
     suite.cases.push_back(check_case(check, of_flight ? cause : "", again, binding));
   }
+  if (const auto files = attachments.find(order.id); files != attachments.end()) attach(suite.cases, files->second);
   return suite;
 }
 

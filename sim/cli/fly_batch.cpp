@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/junit.h"
@@ -51,24 +53,21 @@ std::vector<Table::Column> counted_column(const BatchOutcome& outcome, const std
   return {{.name = "counted", .values = std::move(counted), .whole = true}};
 }
 
-/// Returns the kept files of the failed flights.
+/// Returns the kept files of the failed flights, the report page first.
 Attachments attachments_of(const std::vector<FlightRecord>& records, const BatchRun& run) {
-  const std::multimap<std::string, std::string> files = {{"report", "report.html"},
-                                                         {"film", "video.webm"},
-                                                         {"replay", "replay.html"},
-                                                         {"csv", "trajectory.csv"},
-                                                         {"csv", "decisions.csv"}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 5> kFiles = {{{"report", "report.html"},
+                                                                               {"film", "video.webm"},
+                                                                               {"replay", "replay.html"},
+                                                                               {"csv", "trajectory.csv"},
+                                                                               {"csv", "decisions.csv"}}};
   const auto whole = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
   Attachments attachments;
   for (const FlightRecord& record : records) {
     if (!record.result || holds(verdict_of(record))) continue;
-    for (const std::string& artifact : run.fly.keep) {
-      const auto [begin, end] = files.equal_range(artifact);
-      for (auto file = begin; file != end; ++file) {
-        const std::filesystem::path path = whole(run.fly.out / record.order.id / file->second);
-        if (!std::filesystem::exists(path)) continue;
-        attachments[record.order.id].push_back(path.lexically_relative(whole(run.junit).parent_path()).string());
-      }
+    for (const auto& [artifact, file] : kFiles) {
+      const std::filesystem::path path = whole(run.fly.out / record.order.id / file);
+      if (std::ranges::find(run.fly.keep, artifact) == run.fly.keep.end() || !std::filesystem::exists(path)) continue;
+      attachments[record.order.id].push_back(path.lexically_relative(whole(run.junit).parent_path()).string());
     }
   }
   return attachments;

@@ -6,6 +6,7 @@ usage: junit_test.py PROGRAM SOURCE [NODE FOLDER_OF_NODE_MODULES]
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -46,7 +47,7 @@ class JUnit(unittest.TestCase):
         for file, name, checks in (("a.yaml", "Straße ä", "checks: [{check: no_collision}]\n"), ("b.yml", "飞行 <&> \\U0001F681", TWICE)):
             (folder / "flüge" / file).write_text(TINY.replace("NAME", name) + checks)
         cls.end = cls.hedgehop("batch", "flüge", "--seeds", "1:2", "--out", "out ü", "--junit", "ci/prüfung.xml", "--keep",
-                               "failed=report,film,csv")
+                               "failed=film,csv,report")
         cls.text = (folder / "ci/prüfung.xml").read_bytes()
 
     @classmethod
@@ -100,6 +101,13 @@ class JUnit(unittest.TestCase):
             self.assertTrue((self.folder / "ci" / path).exists(), path)
             self.assertNotIn("Straße", path)  # its flights pass
         self.assertFalse(list((self.folder / "out ü").glob("Straße*/*/video.webm")))
+
+    def test_the_report_is_the_first_attachment_of_each_failed_case(self):
+        first = {name: re.search(r"\[\[ATTACHMENT\|(.+?)\]\]", case.find("system-out").text)  # as GitLab reads it
+                 for name, case in self.cases("飞行_____🚁/seed1").items()}
+        self.assertEqual({name for name in first if first[name]}, {"jerk_rms (2)", "reached_goal"})
+        for name in ("jerk_rms (2)", "reached_goal"):
+            self.assertTrue(first[name][1].endswith("seed1/report.html"), first[name][1])
 
     def test_debians_junitparser_reads_it(self):
         xml = junitparser.JUnitXml.fromstring(self.text)
