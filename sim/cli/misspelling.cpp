@@ -28,6 +28,12 @@ std::string unknown_option(const CLI::App& app) {
     }
   }
   for (const std::string& word : app.remaining(/*recurse=*/true)) {
+    if (word.starts_with("--renderer") && std::ranges::find(names, "--set") != names.end()) {
+      const bool sets_search = app.get_subcommands().front()->get_name() == "falsify";
+      const std::string_view where =
+          sets_search ? "write set: [drawing.renderer=tiles] in the file" : "use --set drawing.renderer=tiles";
+      return fmt::format("unknown option '{}'; {} (see --help)", word, where);
+    }
     if (word.starts_with("-") && word.size() > 1) {
       return fmt::format("unknown option '{}'{} (see --help)", word, suggestion(word, {names.begin(), names.end()}));
     }

@@ -189,6 +189,10 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   FlownSweep flown;
   flown.add(run.sweep, best.orders, best.records, true);
   const EveryWrite files = write_tables(run, flown, {}, 0);
+  if (!best.fault.empty()) {
+    if (files.well()) write_page(run, best.records.size());
+    throw InputError(fmt::format("{}: {}", run.sweep.design_position.text(), best.fault));
+  }
   if (best.stopped) {
     files.raise();
     return kSignalled + interruption.signal();
@@ -199,8 +203,12 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
     json["values"][run.sweep.parameters[i].path] = best.values[i];
     words += fmt::format(" --set {}={}", run.sweep.parameters[i].path, best.values[i]);
   }
-  fmt::print("{} points flown; smallest mean of {}: {:g}, with{}\n", best.records.size() / seeds, design.minimize,
-             best.cost, words);
+  const std::string early_end =
+      best.early_end.empty() ? "" : fmt::format(" of up to {} ({})", design.evaluations, best.early_end);
+  fmt::print("{} points flown{}; smallest mean of {}: {:g}, with{}\n", best.records.size() / seeds, early_end,
+             design.minimize, best.cost, words);
+  if (best.cost >= design.failure_cost)
+    fmt::print("no point has a mean below failure_cost: flights fail or lack {}\n", design.minimize);
   files.raise();
   write_file_whole(run.out / "optimum.json", json_text(json, 2) + "\n");
   fmt::print("written: {}\n", (run.out / "optimum.json").string());

@@ -1,5 +1,7 @@
 #include "sim/sweep/optimize.h"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <nlopt.hpp>
 
@@ -40,7 +42,7 @@ struct Function {
 
 }  // namespace
 
-void minimize(const MinimizeOptions& options, const std::function<double(const std::vector<double>&)>& cost) {
+std::string minimize(const MinimizeOptions& options, const std::function<double(const std::vector<double>&)>& cost) {
   nlopt::opt optimizer(algorithm(options.method), static_cast<unsigned>(options.dimensions));
   optimizer.set_lower_bounds(0.0);
   optimizer.set_upper_bounds(1.0);
@@ -52,14 +54,17 @@ void minimize(const MinimizeOptions& options, const std::function<double(const s
   std::vector<double> x(options.dimensions, 0.5);
   double min_cost = 0.0;
   try {
-    optimizer.optimize(x, min_cost);
-  } catch (const nlopt::roundoff_limited&) {  // converged to the limit of precision
+    const nlopt::result end = optimizer.optimize(x, min_cost);
+    if (end == nlopt::XTOL_REACHED) return fmt::format("converged to {:g} of each range", options.tolerance);
+  } catch (const nlopt::roundoff_limited&) {
+    return "converged to the limit of precision";
   } catch (const nlopt::forced_stop&) {
     try {
       std::rethrow_exception(function.fault);
     } catch (const StopMinimizing&) {
     }
   }
+  return "";
 }
 
 }  // namespace hedgehop::sim

@@ -3,7 +3,7 @@
 
 namespace hedgehop::sim {
 
-void minimize(const MinimizeOptions&, const std::function<double(const std::vector<double>&)>&) {
+std::string minimize(const MinimizeOptions&, const std::function<double(const std::vector<double>&)>&) {
   throw InputError("this build of Hedgehop has no optimizer (hedgehop --version --features)");
 }
 

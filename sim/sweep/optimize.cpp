@@ -14,19 +14,23 @@
 namespace hedgehop::sim {
 namespace {
 
-/// Returns the mean of a column over a point's flights. A flight that fails or lacks the figure counts as failure_cost.
-double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
+/// Returns the fault of the minimized column if it can be no column of any flight: read_sweep() accepts all names of a
+/// module's metrics. Metrics of the judge may be absent.
+std::string absence_fault(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
   const Table table = flight_table(records);
   const bool any_flown =
       std::ranges::any_of(records, [](const FlightRecord& record) { return record.result.has_value(); });
-  const bool has_column = table.has(design.minimize);
-  if (any_flown && !has_column) {
-    const std::vector<std::string_view> names(table.names().begin(), table.names().end());
-    throw InputError(
-        fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names)));
-  }
+  if (!any_flown || table.has(design.minimize)) return "";
+  if (!design.minimize.starts_with("metric.module.") && !design.minimize.starts_with("time.")) return "";
+  const std::vector<std::string_view> names(table.names().begin(), table.names().end());
+  return fmt::format("'design.minimize': no column '{}'{}", design.minimize, suggestion(design.minimize, names));
+}
+
+/// Returns the mean of a column over a point's flights. A flight that fails or lacks the figure counts as failure_cost.
+double mean_cost(const OptimizeDesign& design, const std::vector<FlightRecord>& records) {
+  const Table table = flight_table(records);
   const auto* const numbers =
-      has_column ? std::get_if<std::vector<double>>(&table.column(design.minimize).values) : nullptr;
+      table.has(design.minimize) ? std::get_if<std::vector<double>>(&table.column(design.minimize).values) : nullptr;
   double sum = 0.0;
   for (size_t i = 0; i < records.size(); ++i) {
     const bool counts = numbers && holds(verdict_of(records[i])) && !std::isnan((*numbers)[i]);
@@ -59,6 +63,10 @@ struct Search {
     }
     best.orders.append(point);
     best.records.insert(best.records.end(), records->begin(), records->end());
+    if (best.fault = known.empty() ? absence_fault(design, *records) : ""; !best.fault.empty()) {
+      best.stopped = true;
+      throw StopMinimizing();
+    }
     const double cost = known[number] = mean_cost(design, *records);
     if (cost < best.cost) {
       best.cost = cost;
@@ -74,11 +82,14 @@ Optimum optimize(const SweepConfig& sweep, const FlyPoint& fly) {
   const auto& design = std::get<OptimizeDesign>(sweep.design);
   Search search{.sweep = sweep, .design = design, .fly = fly};
   constexpr double kTolerance = 1e-4;  // of a range: finer differences of a gain are of no interest
-  minimize({.method = design.method,
-            .dimensions = sweep.parameters.size(),
-            .max_points = static_cast<int>(design.evaluations),
-            .tolerance = kTolerance},
-           [&](const std::vector<double>& coordinates) { return search.cost(coordinates); });
+  const MinimizeOptions options{.method = design.method,
+                                .dimensions = sweep.parameters.size(),
+                                .max_points = static_cast<int>(design.evaluations),
+                                .tolerance = kTolerance};
+  search.best.early_end =
+      minimize(options, [&](const std::vector<double>& coordinates) { return search.cost(coordinates); });
+  if (search.best.early_end.empty() && search.known.size() < static_cast<size_t>(design.evaluations))
+    search.best.early_end = "the other evaluations repeat a point";
   return std::move(search.best);
 }
 

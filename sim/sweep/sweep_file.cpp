@@ -96,7 +96,10 @@ Scenario base_scenario(const SweepConfig& sweep, const Node& root) {
   std::error_code ignored;
   if (!std::filesystem::exists(sweep.scenario, ignored)) {
     ErrorList faults("sweep");
-    faults.add(position_of(root, "scenario"), fmt::format("there is no file '{}'", sweep.scenario));
+    faults.add(
+        position_of(root, "scenario"),
+        fmt::format("there is no file '{}'{}", sweep.scenario,
+                    std::filesystem::path(sweep.scenario).is_relative() ? " (relative to the sweep's folder)" : ""));
     faults.throw_if_any();
   }
   try {
@@ -132,6 +135,11 @@ SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std:
   ErrorList faults("sweep");
   const Node root = load_tree(file, faults);
   SweepConfig sweep;
+  if (const Node* design = root.find("design"); design && design->kind == Node::Kind::scalar) {
+    faults.add(design->position,
+               fmt::format("'design' expects a map of keys, such as {{type: {0}}}, got '{0}'", design->text));
+    faults.throw_if_any();
+  }
   if (root.kind == Node::Kind::map) read_struct(root, "", "", sweep, faults);
   faults.throw_if_any();
 

@@ -129,6 +129,15 @@ TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   EXPECT_NEAR(optimum.at("cost").get<double>(), best, 1e-12);
 }
 
+TEST_F(Sweep, DesignThatIsAWordIsRefusedWithTheMapToWrite) {
+  folder.write("word.yaml",
+               "scenario: tiny.yaml\ndesign: grid\nparameters: [{path: avoidance.speed, values: [0.2, 1]}]\n");
+  EXPECT_THAT(folder.hedgehop("sweep word.yaml --out out").err,
+              HasSubstr("word.yaml:2:9: 'design' expects a map of keys, such as {type: grid}, got 'grid'\n"));
+  EXPECT_THAT(folder.hedgehop("sweep word.yaml --renderer tiles").err,
+              HasSubstr("unknown option '--renderer'; use --set drawing.renderer=tiles (see --help)\n"));
+}
+
 TEST_F(Sweep, OptimizerRejectsAnUnknownColumnBeforeItsFirstPoint) {
   folder.write("best.yaml",
                "scenario: tiny.yaml\nset: [duration=1]\n"
@@ -141,6 +150,34 @@ TEST_F(Sweep, OptimizerRejectsAnUnknownColumnBeforeItsFirstPoint) {
   folder.shell("sed -i s/goal_distance,/jerk_rms,/ best.yaml");
   EXPECT_THAT(folder.hedgehop("sweep best.yaml --out out").err,
               HasSubstr("best.yaml:3:36: no column 'jerk_rms'; did you mean 'metric.jerk_rms'?"));
+}
+
+/// No flight of 0.1 s reaches the goal, and only flights that do have a path excess.
+TEST_F(Sweep, OptimizerCountsAnAbsentMetricAsFailureCost) {
+  const auto best = [&](const std::string& column) {
+    folder.write("best.yaml", "scenario: tiny.yaml\ndesign: {type: optimize, minimize: " + column +
+                                  ", evaluations: 3, failure_cost: 70}\n"
+                                  "parameters: [{path: avoidance.speed, from: 0.2, to: 1}]\n");
+    return folder.hedgehop("sweep best.yaml --out " + column);
+  };
+  const CommandEnd end = best("metric.path_excess");
+  EXPECT_EQ(end.status, 1) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("no point has a mean below failure_cost: flights fail or lack metric.path_excess\n"));
+  EXPECT_EQ(folder.json("metric.path_excess/optimum.json").at("cost"), 70);
+  EXPECT_EQ(Table(folder.path() / "metric.path_excess/sweep.csv").rows(), 3u);
+  const CommandEnd unknown = best("metric.module.nope");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("'design.minimize': no column 'metric.module.nope'"));
+  EXPECT_EQ(Table(folder.path() / "metric.module.nope/sweep.csv").rows(), 1u);
+}
+
+TEST_F(Sweep, OptimizerStatesWhyItEndedEarly) {
+  folder.write("best.yaml",
+               "scenario: tiny.yaml\nset: [duration=1]\n"
+               "design: {type: optimize, minimize: goal_distance_m, evaluations: 1000, method: nelder_mead}\n"
+               "parameters: [{path: avoidance.speed, from: 0.2, to: 0.3}]\n");
+  const CommandEnd end = folder.hedgehop("sweep best.yaml --out out");
+  EXPECT_THAT(end.out, ContainsRegex("[0-9]+ points flown of up to 1000 \\(converged to 0.0001 of each range\\)"));
 }
 
 TEST_F(Sweep, InterruptedOptimizerKeepsTheTableOfItsPoints) {
