@@ -1,6 +1,7 @@
 #include "sim/verdict/assessment.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +172,16 @@ CheckResult evaluate(const MaxTiltCheck& check, const Evidence& e) {
           tilt.t_s};
 }
 
+/// Returns why a metric has no value.
+std::string absent_words(const std::string& name, const std::vector<MetricValue>& metrics) {
+  if (!name.starts_with(kModulePrefix)) return "the metric does not apply to this flight";
+  std::vector<std::string_view> names;
+  for (const MetricValue& metric : metrics)
+    if (metric.name.starts_with(kModulePrefix)) names.push_back(metric.name);
+  return fmt::format("the flight has no such metric; this module has: {}",
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+}
+
 CheckResult evaluate(const MetricCheck& check, const Evidence& e) {
   for (const MetricValue& metric : e.flight.result.metrics) {
     if (metric.name != check.name) continue;
@@ -182,8 +193,13 @@ CheckResult evaluate(const MetricCheck& check, const Evidence& e) {
             metric.value, limit,
             metric.unit,  shows_minimum ? ">=" : "<="};
   }
-  return {
-      check.name, false, kNaN, check.at_least.value_or(check.at_most.value_or(kNaN)), "", check.at_least ? ">=" : "<="};
+  return {.name = check.name,
+          .value = kNaN,
+          .limit = check.at_least.value_or(check.at_most.value_or(kNaN)),
+          .unit = {},
+          .must = check.at_least ? ">=" : "<=",
+          .t_s = {},
+          .cause = absent_words(check.name, e.flight.result.metrics)};
 }
 
 CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
@@ -194,7 +210,9 @@ CheckResult evaluate(const FloorVisitedCheck& check, const Evidence& e) {
   return {std::string{FloorVisitedCheck::kName}, share >= check.at_least, share, check.at_least, "", ">="};
 }
 
-CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) { return evaluate_path(check, e.flight); }
+CheckResult evaluate(const PathToleranceCheck& check, const Evidence& e) {
+  return evaluate_path(check, e.flight, e.scenario.seed);
+}
 
 CheckResult evaluate(const FormulaCheck& check, const Evidence& e) {
   return evaluate_formula(check, e.scenario, e.flight);

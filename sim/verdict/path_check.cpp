@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/flight/build.h"
 #include "sim/scenario/reference_path.h"
 #include "sim/verdict/path_distance.h"
 
@@ -38,10 +39,7 @@ double shape_distance_m(const PathToleranceCheck& check, const std::vector<Timed
   return ends_apart_m > check.at_most_m ? std::max(distance_m, ends_apart_m) : distance_m;
 }
 
-}  // namespace
-
-CheckResult evaluate_path(const PathToleranceCheck& check, const Flight& flight) {
-  const ReferencePath reference = read_reference_path(check.reference);
+CheckResult compare(const PathToleranceCheck& check, const ReferencePath& reference, const Flight& flight) {
   std::vector<TimedPoint> flown;
   for (const TrajectoryRow& row : flight.trajectory) flown.push_back({row.t_s, row.p_WB_true});
   const std::string name{PathToleranceCheck::kName};
@@ -69,6 +67,19 @@ CheckResult evaluate_path(const PathToleranceCheck& check, const Flight& flight)
           "<=",
           time_of_maximum_s(flown, reference.points),
           passed ? "" : left};
+}
+
+}  // namespace
+
+CheckResult evaluate_path(const PathToleranceCheck& check, const Flight& flight, uint64_t seed) {
+  const ReferencePath reference = read_reference_path(check.reference);
+  CheckResult result = compare(check, reference, flight);
+  const bool other = reference.seed != seed || reference.version != version();
+  if (!result.passed && other && !reference.version.empty()) {  // a table by hand has no version
+    result.cause += fmt::format("{}(reference: seed {}, version {})", result.cause.empty() ? "" : " ", reference.seed,
+                                reference.version);
+  }
+  return result;
 }
 
 }  // namespace hedgehop::sim

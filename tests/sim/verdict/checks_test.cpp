@@ -91,6 +91,15 @@ TEST(Checks, ModuleMetricCannotReplaceAHedgehopMetric) {
   EXPECT_TRUE(f.evaluate(MetricCheck{.name = "module.corners_found", .at_least = 0.9}).passed);
 }
 
+TEST(Checks, AbsentModuleMetricNamesThoseOfTheModule) {
+  StraightFlight f;
+  f.flight.result.metrics = {{"module.brake_share", 1.0, "", FigureKind::module}, {"jerk_rms", 1.0, ""}};
+  EXPECT_EQ(f.evaluate(MetricCheck{.name = "module.brake_shar", .at_least = 1.0}).cause,
+            "the flight has no such metric; this module has: module.brake_share");
+  EXPECT_EQ(f.evaluate(MetricCheck{.name = "path_excess", .at_most = 1.0}).cause,
+            "the metric does not apply to this flight");
+}
+
 TEST(Checks, CollisionIsCheckedOnceUnlessTheScenarioMayCollide) {
   StraightFlight f;
   f.flight.result.outcome = Outcome::collided;

@@ -1,11 +1,13 @@
 #include "sim/verdict/flight_cause.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
 #include "sim/config/whole_file.h"
+#include "sim/flight/build.h"
 #include "sim/flight/words.h"
 #include "sim/scenario/reference_path.h"
 #include "sim/verdict/assessment.h"
@@ -15,6 +17,7 @@
 namespace hedgehop::sim {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -144,17 +147,21 @@ TEST(CheckCause, OfClearanceNamesTheObstacle) {
 TEST(CheckCause, OfAPathIsThePlaceAndTimeAtWhichTheFlightLeftIt) {
   const TemporaryFolder folder;
   StuckFlight f;
-  ReferencePath reference{.points = {{0.0, {0.0, 0.0, -10.0}}, {30.0, {15.0, 0.0, -10.0}}}};  // 0.5 m/s
+  ReferencePath reference{.version = std::string(version()),
+                          .seed = 3,
+                          .points = {{0.0, {0.0, 0.0, -10.0}}, {30.0, {15.0, 0.0, -10.0}}}};  // 0.5 m/s
   write_file_whole(folder.path() / "path.csv", reference_text(reference));
   f.flight.result.outcome = Outcome::reached;
   const PathToleranceCheck check{.reference = folder.path() / "path.csv", .at_most_m = 1.0};
   // At 0.5 m/s like the reference up to 4 s and 2 m; 1 m behind it from 6 s on.
-  const CheckResult result = evaluate_path(check, f.flight);
+  const CheckResult result = evaluate_path(check, f.flight, 3);
   EXPECT_EQ(check_words(result),
             "13 m at 30.00 s, must be <= 1 m: left the reference at 6.10 s, north 2.0 m, east 0.0 m, altitude 10.0 m");
+  EXPECT_THAT(check_words(evaluate_path(check, f.flight, 4)),
+              EndsWith(fmt::format("altitude 10.0 m (reference: seed 3, version {})", version())));
   f.flight.trajectory.resize(101);
   f.flight.result.outcome = Outcome::timeout;
-  EXPECT_THAT(check_words(evaluate_path(check, f.flight)),
+  EXPECT_THAT(check_words(evaluate_path(check, f.flight, 3)),
               StartsWith("10 s, must be >= 30 s: end of the flight; left"));
 }
 
