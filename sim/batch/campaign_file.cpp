@@ -53,9 +53,8 @@ std::string folder_name(const std::string& group, int number) {
 void examine_seeds(const CampaignConfig& campaign, const Node& root, ErrorList& faults) {
   const auto examine = [&](const std::string& at, const std::optional<std::string>& tuned_on,
                            const std::string& seeds) {
-    if (std::string fault = judging_fault(tuned_on, seeds); !fault.empty()) {
+    if (std::string fault = judging_fault(tuned_on, seeds); !fault.empty())
       faults.add(position_of(root, at + ".seeds"), std::move(fault));
-    }
   };
   for (size_t i = 0; i < campaign.flights.size(); ++i) {
     const CampaignFlights& flights = campaign.flights[i];
@@ -80,9 +79,8 @@ class Gatherer {
     if (files.yaml.empty())
       batch_.faults.push_back(fmt::format("{}: no *.yaml or *.yml in this folder", input.string()));
     for (const fs::path& file : files.yaml) add_file(file);
-    if (std::string words = left_out_words(files, used_files()); !words.empty()) {
+    if (std::string words = left_out_words(files, used_files()); !words.empty())
       batch_.left_out.push_back(std::move(words));
-    }
   }
 
   /// @param name  of the group; empty: the scenario's name and its overrides. @return the group's name.
@@ -156,14 +154,14 @@ class Gatherer {
       faults.throw_if_any();
       examine_seeds(campaign, root, faults);
       faults.throw_if_any();
+      positions_ = override_positions(root, file.parent_path());
       add_flights(campaign.flights, file.parent_path());
       if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
       if (campaign.plan) batch_.plan = (file.parent_path() / *campaign.plan).lexically_normal();
       if (campaign.tuned_on) batch_.tuned_on += (batch_.tuned_on.empty() ? "" : ", ") + *campaign.tuned_on;
       for (CampaignCheck& check : campaign.checks) {
-        if (auto* no_worse = std::get_if<NoWorseCheck>(&check)) {
+        if (auto* no_worse = std::get_if<NoWorseCheck>(&check))
           no_worse->than = (file.parent_path() / no_worse->than).lexically_normal().string();
-        }
         batch_.checks.push_back(check);
       }
     } catch (const InputError& error) {
@@ -224,9 +222,10 @@ class Gatherer {
   }
 
   void refuse(Order& order, const InputError& error) {
-    order.fault = error.errors().front();
-    order.more_faults.assign(error.errors().begin() + 1, error.errors().end());
-    for (const std::string& fault : error.errors()) {
+    const std::vector<std::string> faults = at_overrides(error.errors(), order.overrides, positions_);
+    order.fault = faults.front();
+    order.more_faults.assign(faults.begin() + 1, faults.end());
+    for (const std::string& fault : faults) {
       // An override that no scenario accepts is one fault, not one per scenario.
       if (std::ranges::find(batch_.faults, fault) == batch_.faults.end()) batch_.faults.push_back(fault);
     }
@@ -236,6 +235,7 @@ class Gatherer {
   const std::vector<uint64_t>& seeds_;
   const std::vector<std::string>& overrides_;
   BatchOrders batch_;
+  OverridePositions positions_;                                         ///< of the last campaign
   std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
   std::map<std::string, int> taken_, ids_;
 };

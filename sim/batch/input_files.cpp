@@ -153,4 +153,31 @@ std::vector<std::string> with_module_paths(std::vector<std::string> overrides, c
   return overrides;
 }
 
+OverridePositions override_positions(const Node& root, const fs::path& folder) {
+  OverridePositions positions;
+  for (const Node& item : root.items) positions.merge(override_positions(item, folder));
+  for (const Entry& entry : root.entries) {
+    positions.merge(override_positions(entry.value, folder));
+    if (entry.key != "set") continue;
+    for (const Node& item : entry.value.items) {
+      positions.try_emplace(with_module_paths({item.text}, folder).front(), item.position);
+    }
+  }
+  return positions;
+}
+
+std::vector<std::string> at_overrides(std::vector<std::string> faults, const std::vector<std::string>& overrides,
+                                      const OverridePositions& positions) {
+  for (std::string& fault : faults) {
+    for (auto text = overrides.rbegin(); text != overrides.rend(); ++text) {
+      const std::string prefix = "--set " + text->substr(0, text->find('=')) + ": ";
+      if (!fault.starts_with(prefix)) continue;
+      if (const auto found = positions.find(*text); found != positions.end())
+        fault = fmt::format("{}: {}", found->second.text(), fault.substr(prefix.size()));
+      break;
+    }
+  }
+  return faults;
+}
+
 }  // namespace hedgehop::sim

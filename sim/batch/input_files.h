@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim {
 
@@ -26,5 +29,15 @@ std::string left_out_words(const FolderFiles& files, const std::set<std::filesys
 /// Returns overrides in which the paths of a module (`avoidance={plugin: ...}`, `avoidance.python=...`) are relative to
 /// the working folder instead of a file's folder, so that they have the same meaning after --set.
 std::vector<std::string> with_module_paths(std::vector<std::string> overrides, const std::filesystem::path& folder);
+
+struct Node;
+/// Positions of overrides in their file, by their text with the paths of with_module_paths().
+using OverridePositions = std::map<std::string, SourcePosition>;
+/// Returns the positions of the items of all keys `set` of a file. @param folder  of the file.
+OverridePositions override_positions(const Node& root, const std::filesystem::path& folder);
+/// Returns faults in which the position of an override replaces "--set key". @param overrides  a later one has
+/// precedence.
+std::vector<std::string> at_overrides(std::vector<std::string> faults, const std::vector<std::string>& overrides,
+                                      const OverridePositions& positions);
 
 }  // namespace hedgehop::sim

@@ -85,8 +85,10 @@ class Includer {
     try {
       text = read_input_file(file);
     } catch (const std::invalid_argument& why) {
-      errors_.add(position,
-                  from ? fmt::format("{}: '{}'", why.what(), name) : why.what() + installed_scenarios_advice(file));
+      const bool of_override = from && file.is_relative() && from->file.starts_with("--set ");
+      const std::string place = of_override ? " (relative to the scenario's folder)" : "";
+      errors_.add(position, from ? fmt::format("{}: '{}'{}", why.what(), name, place)
+                                 : why.what() + installed_scenarios_advice(file));
       return {};
     }
     read_.insert(file.lexically_normal());

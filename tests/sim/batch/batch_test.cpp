@@ -261,6 +261,11 @@ TEST(Batch, CampaignFileNamesScenariosSeedsAndValues) {
   folder.write("campaign.yaml", "flights:\n  - {scenario: tiny.yaml, seds: 1:2}\n");
   EXPECT_THAT(folder.hedgehop("batch campaign.yaml --out out2").err,
               HasSubstr("campaign.yaml:2:27: unknown key 'seds' in 'flights.0'; did you mean 'seeds'?"));
+  folder.write("campaign.yaml",
+               "tuned_on: none\nflights:\n  - {scenario: tiny.yaml, seeds: 1, set: [vehicle.use=none.yaml]}\n");
+  EXPECT_THAT(
+      folder.hedgehop("batch campaign.yaml --out out2").err,
+      HasSubstr("campaign.yaml:3:43: there is no such file: 'none.yaml' (relative to the scenario's folder)\n"));
 }
 
 TEST(Batch, CampaignRejectsTuningSeedsForEvaluation) {
