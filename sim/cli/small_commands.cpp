@@ -122,11 +122,12 @@ int report(const ReportOptions& options) {
     if (options.replay) throw InputError(folder + ": --replay shows one flight; name the folder of one");
     if (options.film_strips > 0) film_worst(options.folder, options.film_strips);
     write_campaign_report(options.folder, options.against.empty() ? std::nullopt : std::optional(options.against));
-    written("report.html");
-    if (!options.figures) return 0;
-    for (const std::string& file : write_sweep_figures(options.folder, options.folder / "figures", options.column)) {
-      written(("figures/" + file).c_str());
+    std::vector<std::string> files = {"report.html"};
+    if (options.figures) {
+      for (const std::string& file : write_sweep_figures(options.folder, options.folder / "figures", options.column))
+        files.push_back("figures/" + file);
     }
+    for (const std::string& file : files) written(file.c_str());
     return 0;
   }
   if (!std::filesystem::exists(options.folder / "result.json")) {

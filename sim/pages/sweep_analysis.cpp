@@ -81,6 +81,10 @@ SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightLis
   SweepTable& points = analysis.points;
   if (column.empty()) column = default_column(folder, flights, points);
   if (!has_column(points, column)) {
+    for (const std::string& name : points.columns) {
+      if (name.ends_with("." + column))
+        throw InputError("--column: no column '" + column + "'; did you mean '" + name + "'?");
+    }
     throw InputError("--column: no column '" + column + "'" +
                      suggestion(column, {points.columns.begin(), points.columns.end()}));
   }

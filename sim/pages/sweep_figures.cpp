@@ -242,8 +242,8 @@ std::vector<std::string> write_sweep_figures(const std::filesystem::path& folder
   }
   if (const Json& columns = data.at("effects").at("columns"); columns.contains(analysis.column)) {
     draw("indices", index_bars(analysis, columns.at(analysis.column)));
-    write("indices.csv", indices_csv(analysis, columns.at(analysis.column)));
-    write("indices.tex", indices_latex(analysis, columns.at(analysis.column)));
+    write("indices.csv", indices_csv(analysis, data.at("effects")));
+    write("indices.tex", indices_latex(analysis, data.at("effects")));
   }
   return files;
 }

@@ -145,26 +145,35 @@ std::string pareto_csv(const SweepAnalysis& analysis, const std::string& other,
   return table.csv();
 }
 
-std::string indices_csv(const SweepAnalysis& analysis, const nlohmann::ordered_json& indices) {
+std::string indices_csv(const SweepAnalysis& analysis, const nlohmann::ordered_json& effects) {
   constexpr const char* kNames[] = {"first", "first_low_95", "first_high_95", "total", "total_low_95", "total_high_95"};
+  const size_t step = effects.at("method") == "grid" ? 3 : 1;
   Table table;
   table.add("parameter", analysis.points.paths);
-  for (size_t k = 0; k < std::size(kNames); ++k) {
+  for (size_t k = 0; k < std::size(kNames); k += step) {
     std::vector<double> values;
-    for (const auto& row : indices) values.push_back(row[k].get<double>());
+    for (const auto& row : effects.at("columns").at(analysis.column)) values.push_back(row[k].get<double>());
     table.add(kNames[k], values);
   }
   return table.csv();
 }
 
-std::string indices_latex(const SweepAnalysis& analysis, const nlohmann::ordered_json& indices) {
+std::string indices_latex(const SweepAnalysis& analysis, const nlohmann::ordered_json& effects) {
+  const bool exact = effects.at("method") == "grid";
+  const auto& indices = effects.at("columns").at(analysis.column);
+  Words heads = {"parameter", "$S_i$", "$S_{Ti}$"};
+  if (!exact) heads = {"parameter", "$S_i$", "95\\,\\% interval", "$S_{Ti}$", "95\\,\\% interval"};
   std::vector<Words> rows;
   for (size_t p = 0; p < analysis.points.paths.size(); ++p) {
     const auto cell = [&](size_t k) { return fmt::format("{:.2f}", indices[p][k].get<double>()); };
     const auto interval = [&](size_t k) { return cell(k + 1) + " to " + cell(k + 2); };
-    rows.push_back({"\\texttt{" + latex(analysis.points.paths[p]) + "}", cell(0), interval(0), cell(3), interval(3)});
+    Words& row = rows.emplace_back(Words{"\\texttt{" + latex(analysis.points.paths[p]) + "}"});
+    for (const size_t k : {0U, 3U}) {
+      row.push_back(cell(k));
+      if (!exact) row.push_back(interval(k));
+    }
   }
-  return latex_table({"parameter", "$S_i$", "95\\,\\% interval", "$S_{Ti}$", "95\\,\\% interval"}, rows, 1);
+  return latex_table(heads, rows, 1);
 }
 
 }  // namespace hedgehop::sim

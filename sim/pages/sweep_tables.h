@@ -20,8 +20,8 @@ std::vector<size_t> pareto_front(const SweepAnalysis& analysis, const std::vecto
 std::string pareto_csv(const SweepAnalysis& analysis, const std::string& other,
                        const std::vector<PointFigure>& figures);
 
-/// The Sobol indices of the column. @param indices  of sweep_data(), one list per parameter.
-std::string indices_csv(const SweepAnalysis& analysis, const nlohmann::ordered_json& indices);
-std::string indices_latex(const SweepAnalysis& analysis, const nlohmann::ordered_json& indices);
+/// The Sobol indices of the column. @param effects  of sweep_data(). Indices of a grid are exact: without intervals.
+std::string indices_csv(const SweepAnalysis& analysis, const nlohmann::ordered_json& effects);
+std::string indices_latex(const SweepAnalysis& analysis, const nlohmann::ordered_json& effects);
 
 }  // namespace hedgehop::sim

@@ -164,9 +164,15 @@ TEST(SweepFigures, AreTablesAndDrawingsThatOtherProgramsRead) {
   EXPECT_THAT(folder.read("figures/ranking.csv"),
               HasSubstr("rank,point,avoidance.gain,avoidance.range,mean_min_obstacle_clearance_m"));
   EXPECT_THAT(folder.read("figures/ranking.tex"), HasSubstr("mean of min\\_obstacle\\_clearance\\_m [m]"));
-  EXPECT_EQ(Table(folder.path() / "figures/indices.csv").rows(), 2u);
-  EXPECT_THAT(folder.hedgehop("report . --figures --column min_clearence_m").err,
-              HasSubstr("no column 'min_clearence_m'; did you mean 'min_clearance_m'?"));
+  const Table indices(folder.path() / "figures/indices.csv");
+  EXPECT_EQ(indices.rows(), 2u);
+  EXPECT_THAT(indices.names(), ::testing::ElementsAre("parameter", "first", "total"));  // exact, so no intervals
+  EXPECT_THAT(folder.read("figures/indices.tex"), HasSubstr("parameter & $S_i$ & $S_{Ti}$ \\\\\n"));
+  const CommandEnd misspelled = folder.hedgehop("report . --figures --column min_clearence_m");
+  EXPECT_THAT(misspelled.err, HasSubstr("no column 'min_clearence_m'; did you mean 'min_clearance_m'?"));
+  EXPECT_EQ(misspelled.out, "");
+  EXPECT_THAT(folder.hedgehop("report . --figures --column no_collision").err,
+              HasSubstr("no column 'no_collision'; did you mean 'check.no_collision'?"));
 }
 
 TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
