@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <variant>
 
@@ -27,6 +28,10 @@ std::string check_name(const CheckConfig& config) {
       config);
 }
 
+/// Figures of the judge that are never negative.
+constexpr auto kNotNegative = std::to_array<std::string_view>(
+    {"success", "collision", "center_collision", "hull_collision", "shortest_path", "off_course_at_end_m",
+     "time_to_collision_at_reaction_s", "jerk_rms", "actuator_effort"});
 constexpr double kKnownClearanceM = 50.0;  // distances of obstacles are known up to here (sim/flight)
 
 class CheckValidator {
@@ -79,6 +84,8 @@ class CheckValidator {
     if (check.at_least && check.at_most && *check.at_least > *check.at_most) {
       add(path + ".at_most", "must not be less than 'at_least'");
     }
+    if (check.at_most && *check.at_most < 0.0 && std::ranges::find(kNotNegative, check.name) != kNotNegative.end())
+      add(path + ".at_most", fmt::format("must be >= 0, because {} is never negative", check.name));
   }
   void check(const std::string& path, const PathToleranceCheck& check) {
     unless_valid(path + ".reference", [&] { read_reference_path(check.reference); });

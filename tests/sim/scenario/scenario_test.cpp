@@ -166,6 +166,9 @@ TEST_F(CrossRules, ChecksMakeSense) {
               ElementsAre("--set checks: 'checks.0': contradicts 'may_collide: true'"));
   EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rmss, at_most: 1}]"}),
               ElementsAre(HasSubstr("'checks.0.name': is not a metric; did you mean 'jerk_rms'? allowed: success, ")));
+  EXPECT_THAT(faults({"checks=[{check: metric, name: jerk_rms, at_most: -1}]"}),
+              ElementsAre("--set checks: 'checks.0.at_most': must be >= 0, because jerk_rms is never negative"));
+  EXPECT_THAT(faults({"checks=[{check: metric, name: path_excess, at_most: -1}]"}), testing::IsEmpty());
   EXPECT_THAT(faults({"checks=[{check: metric, name: module.a}]"}),
               ElementsAre("--set checks: 'checks.0': needs 'at_least' or 'at_most'"));
   EXPECT_THAT(
