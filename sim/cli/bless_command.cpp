@@ -25,11 +25,17 @@ std::vector<TimedPoint> flown_path(const std::filesystem::path& run_folder) {
   return path;
 }
 
+struct ReferenceFile {
+  std::filesystem::path path;
+  std::string check;  ///< of the scenario that reads it, such as "checks.0"; empty: none
+};
+
 /// Returns the reference file of the scenario's path_tolerance; without such a check, a file next to the scenario.
-std::filesystem::path reference_file(const std::filesystem::path& run_folder, const std::string& scenario_file) {
+ReferenceFile reference_file(const std::filesystem::path& run_folder, const std::string& scenario_file) {
   const Scenario scenario = load_scenario(run_folder / "scenario.yaml");
-  for (const CheckConfig& check : scenario.checks) {
-    if (const auto* path = std::get_if<PathToleranceCheck>(&check)) return path->reference;
+  for (size_t i = 0; i < scenario.checks.size(); ++i) {
+    if (const auto* check = std::get_if<PathToleranceCheck>(&scenario.checks[i]))
+      return {check->reference, fmt::format("checks.{}", i)};
   }
   if (scenario_file.empty())
     throw InputError(fmt::format("{}: its result.json names no scenario file", run_folder.string()));
@@ -37,7 +43,7 @@ std::filesystem::path reference_file(const std::filesystem::path& run_folder, co
     throw InputError(
         fmt::format("{}: no such scenario here; call bless in the folder in which run was called", scenario_file));
   }
-  return std::filesystem::path(scenario_file).replace_extension("reference.csv");
+  return {std::filesystem::path(scenario_file).replace_extension("reference.csv"), ""};
 }
 
 /// Returns why a flight cannot be a reference; empty if it can. Ignores path_tolerance, whose reference is replaced.
@@ -76,14 +82,19 @@ int bless(const BlessOptions& options) {
                           .seed = result.info.seed,
                           .step_s = kStepS * std::max(1.0, std::ceil(duration_s / (kStepS * kMaxPoints)))};
   reference.points = thinned(flown, reference.step_s);
-  const std::filesystem::path file = reference_file(options.folder, result.info.scenario_file);
-  if (std::filesystem::exists(file) && !options.force && !options.dry_run) {
+  const auto [file, check] = reference_file(options.folder, result.info.scenario_file);
+  if (std::filesystem::exists(file) && !options.force) {
     throw InputError(fmt::format("{}: is there already; --force replaces it", file.string()));
   }
   if (!options.dry_run) write_file_whole(file, reference_text(reference));
-  fmt::print("{}: {} ({} points)\nchecked by: - {{check: path_tolerance, reference: {}, at_most: 0.5}}\n",
-             options.dry_run ? "would write" : "written", file.string(), reference.points.size(),
-             file.filename().string());
+  fmt::print("{}: {} ({} points)\n", options.dry_run ? "would write" : "written", file.string(),
+             reference.points.size());
+  if (check.empty()) {
+    fmt::print("add to the checks: - {{check: path_tolerance, reference: {}, at_most: 0.5}}\n",
+               file.filename().string());
+  } else {
+    fmt::print("checked by: {} of the scenario\n", check);
+  }
   return 0;
 }
 

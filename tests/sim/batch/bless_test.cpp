@@ -33,12 +33,29 @@ TEST(Bless, ReplacesAReferenceOnlyWithForceAndDryRunNamesTheFile) {
   EXPECT_THAT(dry.out, HasSubstr("tiny.reference.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "tiny.reference.csv"));
   ASSERT_EQ(folder.hedgehop("bless first --reason one").status, 0);
-  const CommandEnd again = folder.hedgehop("bless first --reason two");
-  EXPECT_EQ(again.status, 2);
-  EXPECT_THAT(again.err, HasSubstr("tiny.reference.csv: is there already; --force replaces it"));
+  for (const std::string option : {"", " --dry-run"}) {
+    const CommandEnd again = folder.hedgehop("bless first --reason two" + option);
+    EXPECT_EQ(again.status, 2);
+    EXPECT_THAT(again.err, HasSubstr("tiny.reference.csv: is there already; --force replaces it"));
+  }
   EXPECT_THAT(folder.read("tiny.reference.csv"), HasSubstr("# reason: one\n"));
   EXPECT_EQ(folder.hedgehop("bless first --reason two --force").status, 0);
   EXPECT_THAT(folder.read("tiny.reference.csv"), HasSubstr("# reason: two\n"));
+}
+
+TEST(Bless, NamesTheCheckOfTheScenarioOrTheOneToAdd) {
+  const CampaignFolder folder;
+  ASSERT_EQ(folder.hedgehop("run tiny.yaml --seed 3 --no-report --no-video --out first").status, 0);
+  EXPECT_THAT(folder.hedgehop("bless first --reason one").out,
+              HasSubstr("add to the checks: - {check: path_tolerance, reference: tiny.reference.csv, at_most: 0.5}\n"));
+  folder.write(
+      "held.yaml",
+      "use: tiny.yaml\nname: held\nchecks: [{check: max_speed, at_most: 9}, {check: path_tolerance, reference: "
+      "tiny.reference.csv, at_most: 0.02}]\n");
+  ASSERT_EQ(folder.hedgehop("run held.yaml --seed 3 --no-report --no-video --out held").status, 0);
+  const CommandEnd end = folder.hedgehop("bless held --reason two --force");
+  EXPECT_THAT(end.out, HasSubstr("tiny.reference.csv"));
+  EXPECT_THAT(end.out, HasSubstr("checked by: checks.1 of the scenario\n"));
 }
 
 TEST(Bless, RejectsAFailedFlight) {
