@@ -29,14 +29,14 @@ void add_renderer(CLI::App& command, std::string& renderer) {
 }
 
 template <class Options>
-void add_flying(CLI::App& command, Options& options) {
+void add_flying(CLI::App& command, Options& options,
+                const std::string& over_limit = "then the flight is killed and fails") {
   command
       .add_option("-j,--jobs", options.jobs,
                   "number of flights in parallel; default the cores that this process may use (affinity, CPU quota)")
       ->transform(whole_number())
       ->check(CLI::Range(1, 4096));
-  command
-      .add_option("--limit", options.limit_s, "maximum wall time of a flight, s; then the flight is killed and fails")
+  command.add_option("--limit", options.limit_s, "maximum wall time of a flight, s; " + over_limit)
       ->transform(number())
       ->check(positive())
       ->type_name("S");
@@ -202,7 +202,7 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();
   add_overrides(*command, options->overrides,
                 "override a value of the search file, e.g. --set design.method=random; may be repeated");
-  add_flying(*command, *options);
+  add_flying(*command, *options, "then the flight is killed and counts as not flown");
   command->add_option("--out", options->out, "output folder")->type_name("DIR");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return falsify(*options); }; });

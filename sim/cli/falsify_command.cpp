@@ -65,6 +65,11 @@ void require_same_search(const FalsifySearch& search, const std::filesystem::pat
                   out.string()));
 }
 
+/// Returns "1 flight", "2 flights".
+std::string count_words(size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 class FalsifyRun {
  public:
   FalsifyRun(const FalsifyOptions& options, const FalsifySearch& search, std::filesystem::path out)
@@ -150,12 +155,14 @@ class FalsifyRun {
     fmt::print("{}{}", mixture_words(result.records), truth_words(result.records));
     const size_t not_flown = print_not_flown(result.records);
     if (failures == 0) {
-      fmt::print("no failure in {} flights: none was found, which is no proof of safety\n",
-                 result.records.size() - not_flown);
+      fmt::print("no failure in {}: none was found, which is no proof of safety\n",
+                 count_words(result.records.size() - not_flown, "flight"));
     } else {
-      fmt::print("{} flights, {} of {} points fail, the first after {} flights; {} distinct failures\n",
-                 result.records.size(), std::ranges::count_if(result.trials, &FalsifyTrial::fails),
-                 result.trials.size(), result.trials[result.failures[0]].record + 1, failures);
+      fmt::print("{}, {} of {}, the first after {}; {}\n", count_words(result.records.size(), "flight"),
+                 std::ranges::count_if(result.trials, &FalsifyTrial::fails),
+                 count_words(result.trials.size(), "point") + (result.trials.size() == 1 ? " fails" : " fail"),
+                 count_words(result.trials[result.failures[0]].record + 1, "flight"),
+                 count_words(failures, "distinct failure"));
     }
     return not_flown;
   }
@@ -180,10 +187,12 @@ class FalsifyRun {
       const Repeat repeat = one.repeats == Repeat::equal ? one.confirmed : one.repeats;
       confirmed += repeat == Repeat::equal ? 1 : 0;
       differs |= repeat == Repeat::differs;
-      fmt::print(
-          "FAIL  {}: robustness {:.4g}, {} of {} boxes, movers and failures left, {:g} s{}\n      hedgehop run {}\n",
-          one.file.stem().string(), one.weakest.robustness, one.shrunk.items, one.shrunk.items_before,
-          one.shrunk.scenario.duration_s, words(repeat), shell_quoted(one.file.string()));
+      const std::string left = one.shrunk.items_before == 0 ? ""
+                                                            : fmt::format(", {} of {} boxes, movers and failures left",
+                                                                          one.shrunk.items, one.shrunk.items_before);
+      fmt::print("FAIL  {}: robustness {:.4g}{}, {:g} s{}\n      hedgehop run {}\n", one.file.stem().string(),
+                 one.weakest.robustness, left, one.shrunk.scenario.duration_s, words(repeat),
+                 shell_quoted(one.file.string()));
     }
     if (!found.empty()) fmt::print("confirmed: {} of {}, flown again alone\n", confirmed, found.size());
     fmt::print("written: {}\n", (out_ / "report.html").string());

@@ -81,10 +81,13 @@ struct ExitStatus {
 constexpr ExitStatus kExitStatuses[] = {
     {0, "all checks hold"},
     {1, "a check fails, a claim is refuted, or a flight cannot be flown to its end"},
-    {2, "the input is bad: one line per fault on standard error; no file is written"},
-    {3, "internal error, or results that cannot be written"},
+    {2,
+     "the input is bad, or the output folder cannot be created: one line per fault on standard error. Only the valid "
+     "scenarios of a batch are flown"},
+    {3, "internal error, or results that cannot be written later"},
     {4, "undecided: after the last seed, the claim of --until is neither shown nor refuted; add seeds and --resume"},
-    {130, "interrupted (Ctrl-C)"},
+    {130, "interrupted (Ctrl-C, SIGINT)"},
+    {143, "terminated (SIGTERM)"},
 };
 
 std::vector<std::string> choices_in(const std::string& type) {
