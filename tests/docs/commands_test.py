@@ -131,6 +131,9 @@ class Commands(unittest.TestCase):
             shutil.copytree(SOURCE / "docs" / example, folder / "docs" / example)
         for file in (folder / "configs").rglob("*.yaml"):
             file.write_text(shortened_file(file.read_text()))
+        if SHARE != "tables":  # files that the page writes
+            for name, text in re.findall(r"^```yaml\n# (configs/\S+)\n(.*?)^```", (SOURCE / SHARE).read_text(), re.S | re.M):
+                (folder / name).write_text(shortened_file(text))
         (folder / "build").mkdir()
         (folder / "build" / "release").symlink_to(BUILD)
         (folder / "out").mkdir()
