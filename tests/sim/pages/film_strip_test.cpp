@@ -88,7 +88,8 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
     const image = document.querySelector('#strips-card img');
     await image.decode();
-    return {width: image.naturalWidth, height: image.naturalHeight,
+    document.getElementById('strips-card').style.width = '300px';
+    return {width: image.naturalWidth, height: image.naturalHeight, name: document.querySelector('#strips-card .name').offsetHeight,
             why: document.querySelector('#strips-card figcaption .soft').textContent,
             boards: document.querySelectorAll('#board-card').length};)js");
   EXPECT_THAT(page.errors, IsEmpty());
@@ -96,6 +97,7 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
   EXPECT_EQ(page.value.at("height"), 240 * 3 / 4 + 16);  // 64 x 48 px, and a line below
   EXPECT_THAT(page.value.at("why").get<std::string>(), HasSubstr("collided (hit north wall"));
   EXPECT_EQ(page.value.at("boards"), 0);
+  EXPECT_LT(page.value.at("name"), 30) << "one line next to a long cause";
 }
 
 TEST(FilmStrip, ShowsTheEndOfATimeout) {

@@ -22,6 +22,7 @@ class AgainstView {
     const pair = host.appendChild(make('div', 'pair halves'));
     this.fillChanged(pair.appendChild(make('div')));
     this.both = both.filter((row) => this.clearance(row) !== null && this.before[row].clearance_m !== null);
+    if (!this.both.length) return;
     const plot = pair.appendChild(make('div'));
     plot.append(make('h3', '', 'Minimum clearance to obstacles'));
     this.axes = new Axes(plot.appendChild(make('div')), 340, {

@@ -15,10 +15,10 @@ function wordAxis(label, words) {
   return {label, words, low: -0.5, high: words.length - 0.5, ticks: words.map((text, value) => ({value, text}))};
 }
 
-/** Returns a text in lines of this width, broken after spaces, underscores and slashes, or anywhere in a long word. */
+/** Returns a text in lines of this width, broken after spaces, underscores, slashes and dots, or anywhere in a long word. */
 function wrappedLines(c, text, width_px) {
   const lines = [''];
-  for (const part of text.split(/(?<=[ _/])/).flatMap((word) => c.measureText(word).width > width_px ? [...word] : [word])) {
+  for (const part of text.split(/(?<=[ _/.])/).flatMap((word) => c.measureText(word).width > width_px ? [...word] : [word])) {
     if (lines.at(-1) && c.measureText(lines.at(-1) + part).width > width_px) lines.push('');
     lines[lines.length - 1] += part;
   }
@@ -62,7 +62,8 @@ class Axes {
     this.lines = this.yAxis.words?.map((word) => wrappedLines(c, word, 0.32 * width)) ?? [];
     const longest = (words) => Math.max(...words.map((word) => c.measureText(word).width));
     const {words} = this.yAxis;
-    const left = axesMargin.left + (words ? Math.max(0, longest(this.lines.flat()) + 28 - axesMargin.left) : 0);
+    const texts = words ? this.lines.flat() : this.ticks(this.yAxis, this.height - top - axesMargin.bottom, 16).map(({text}) => text);
+    const left = Math.max(axesMargin.left, longest(texts) + 28);
     // All names remain visible: the plot grows with the rows, and long names below it are turned.
     this.turned = this.xAxis.words && longest(this.xAxis.words) + 8 > (width - left - right) / this.xAxis.words.length ? longest(this.xAxis.words) : 0;
     const bottom = axesMargin.bottom + this.turned;
@@ -92,7 +93,8 @@ class Axes {
       const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * spacing / pixels));
       return axis.ticks.filter((tick, i) => i % every === 0);
     }
-    return niceTicks(axis.low, axis.high, Math.max(2, pixels / 70)).values.map((value) => ({value, text: short(Math.abs(value) < 1e-12 ? 0 : value)}));
+    const {values} = niceTicks(axis.low, axis.high, Math.max(2, pixels / 70)), texts = tickTexts(values);
+    return values.map((value, i) => ({value, text: texts[i]}));
   }
 
   drawTicks(c) {

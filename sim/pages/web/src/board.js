@@ -62,6 +62,7 @@ function fillStrips(host, data, table, on) {
     make('p', 'soft', 'Camera images with the overlays of the modules before the collision or the closest approach, from a re-simulation.'));
   for (const [row, jpeg] of data.strips) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
+    line.classList.add('long');
     line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${meters(table.value('min_obstacle_clearance_m', row))}`),
       linkTo(data, table, row), copyButton(table.value('command', row)));
     const image = figure.appendChild(make('img'));

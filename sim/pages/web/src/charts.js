@@ -21,9 +21,14 @@ function valueRange(panel) {
   return (u, low, high) => {
     if (low === null) [low, high] = [0, 1];
     for (const {value} of panel.limits) [low, high] = [Math.min(low, value), Math.max(high, value)];
-    const pad = 0.08 * (high - low) || Math.max(Math.abs(high), 1) * 0.1;
+    const pad = high - low > 1e-12 ? 0.08 * (high - low) : Math.max(Math.abs(high), 1) * 0.1;
     return [panel.lowest ?? low - pad, panel.highest === null ? high + pad : Math.min(panel.highest, high + pad)];
   };
+}
+
+/** Returns the ends of the horizontal axis around a single value; undefined for several values. */
+function onlyRange([value, ...others]) {
+  return value === undefined || others.length ? undefined : [value - 1, value + 1];
 }
 
 /** Draws limits as dashed lines with their names. */
@@ -42,7 +47,7 @@ function drawLimits(u, panel) {
     c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
     c.textAlign = 'right';
     c.textBaseline = 'bottom';
-    c.fillText(label + ' ' + value, left + width - 4 * devicePixelRatio, y - 2 * devicePixelRatio);
+    c.fillText(label + ' ' + short(value), left + width - 4 * devicePixelRatio, y - 2 * devicePixelRatio);
     c.restore();
   }
 }
@@ -127,7 +132,7 @@ class Charts {
     const looks = seriesLooks(panel.series), {label: xLabel, symbol, unit, points} = this.axis;
     return {
       width: host.clientWidth || 400, height: this.height,
-      scales: {x: {time: false, distr: this.axis.log ? 3 : 1}, y: {range: valueRange(panel)}},
+      scales: {x: {time: false, distr: this.axis.log ? 3 : 1, range: onlyRange(panel[this.axis.key])}, y: {range: valueRange(panel)}},
       cursor: {y: false, drag: {x: true, y: false}, points: {size: 6}, bind: {
         mouseup: (u, target, handler) => (event) => {
           const clicked = u.select.width < 3;
@@ -142,7 +147,7 @@ class Charts {
         }}},
       axes: [{...axis, size: 30, label: xLabel, labelSize: 14,
         values: (u, splits) => splits.map((v) => v === null ? '' : v.toLocaleString('en-US').replace('-', '−'))},
-        {...axis, size: 46, label: panel.unit, values: (u, splits) => splits.map((v) => short(v))}],
+        {...axis, size: (u, texts) => Math.max(46, 14 + 7 * Math.max(...(texts ?? []).map(({length}) => length))), label: panel.unit, values: (u, splits) => tickTexts(splits)}],
       series: [{label: symbol, value: (u, v) => v === null ? '' : `${fixed(v, 2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
           label, stroke: looks[i].color, width: looks[i].width, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},

@@ -12,17 +12,32 @@ function make(tag, className = '', text = '') {
 /** Returns a number with this many significant figures and a typographic minus. */
 function short(value, figures = 4) {
   if (value === null || value === undefined) return '–';
-  if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(2).replaceAll('-', '−');
+  if (size < 1e-12) return '0';  // a rounding error
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(Math.max(2, figures - 2)).replaceAll('-', '−');
   const digits = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
   return String(Number(value.toFixed(digits))).replace('-', '−');
+}
+/** Returns the number of figures, at least `least`, with which short() distinguishes these numbers. */
+function figuresFor(values, least = 4) {
+  const different = new Set(values.filter((v) => v !== null)), texts = (figures) => new Set([...different].map((v) => short(v, figures)));
+  let figures = least;
+  while (figures < 7 && texts(figures).size < different.size) ++figures;
+  return figures;
+}
+/** Returns the texts of evenly spaced numbers, with the figures of their step. */
+function tickTexts(values) {
+  const size = Math.max(...values.map(Math.abs)), step = values[1] - values[0];
+  const figures = step > 0 ? Math.ceil(Math.log10(size / step) - 1e-9) + 1 : 0;
+  return values.map((v) => short(Math.abs(v) < 1e-9 * step ? 0 : v, Math.max(4, figures)));
 }
 /** Returns a number with this many decimals and a typographic minus; zero has no minus. */
 function fixed(value, decimals) {
   if (value === null || value === undefined) return '–';
   return value.toFixed(decimals).replace(/^-(?=0\.?0*$)/, '').replace('-', '−');
 }
+/** Returns a text of the simulator with quotation marks around names. */
+function quoted(text) { return text.replace(/`([^`]*)`/g, '“$1”'); }
 /** Returns a number with its unit; a small time in a smaller unit: "0.25 µs", not "0.00025 ms". */
 function measured(value, unit, figures = 4) {
   const units = ['s', 'ms', 'µs', 'ns'];
@@ -45,6 +60,12 @@ function makeRamp(stops) {
     const i = Math.min(Math.floor(x), colors.length - 2);
     return 'rgb(' + colors[i].map((c, k) => Math.round(c + (colors[i + 1][k] - c) * (x - i))).join(',') + ')';
   };
+}
+
+/** Returns the color of text on an "rgb(r,g,b)" background: the one with more contrast. */
+function inkOn(color) {
+  const [r, g, b] = color.match(/\d+/g).map((v) => (v / 255) ** 2.2);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.214 ? '#1b2330' : '#ffffff';
 }
 
 /** Returns round numbers in [low, high], about `count` of them: {step, values}. */

@@ -25,12 +25,12 @@ class HeatMap {
     this.cells = heatCells(points, points.of(choice.column), this.xBins, this.yBins, kx, ky);
     this.range = finiteRange([...this.cells.values()].map(({mean}) => mean));
     const unit = points.unit(choice.column);
-    const ends = this.range.map((v) => short(v) + (unit ? ' ' + unit : ''));
+    const ends = this.range.map((v) => short(v, figuresFor(this.range)) + (unit ? ' ' + unit : ''));
     const ramp = make('span', 'ramp');
     ramp.append(ends[0], make('i'), ends[1]);
     ramp.querySelector('i').style.background = `linear-gradient(${choice.less ? 270 : 90}deg, var(--ramp))`;
     this.key.replaceChildren(ramp, make('span', '', `mean of ${choice.column} over the points and seeds of a cell`));
-    this.axes.set(wordAxis(this.x.value, this.xBins.words), wordAxis(this.y.value, this.yBins.words));
+    this.axes.set(wordAxis(points.label(this.x.value), this.xBins.words), wordAxis(points.label(this.y.value), this.yBins.words));
   }
   draw(c) {
     if (!this.cells) return;
@@ -43,10 +43,9 @@ class HeatMap {
       const color = share === null ? themeColor('faint') : ramp(choice.less ? 1 - share : share);
       c.fillStyle = color;
       c.fillRect(axes.x(x - 0.5) + 1, axes.y(y + 0.5) + 1, width - 2, height - 2);
-      const text = mean === null ? '–' : short(mean, 3);
+      const text = mean === null ? '–' : short(mean, figuresFor(this.range, 3));
       if (c.measureText(text).width + 6 > width || height < 14) continue;
-      const [r, g, b] = color.match(/\d+/g)?.map(Number) ?? [0, 0, 0];
-      c.fillStyle = share === null ? themeColor('soft') : 0.3 * r + 0.59 * g + 0.11 * b > 140 ? '#1b2330' : '#ffffff';
+      c.fillStyle = share === null ? themeColor('soft') : inkOn(color);
       c.fillText(text, axes.x(x), axes.y(y));
     }
   }

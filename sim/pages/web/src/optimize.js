@@ -11,8 +11,13 @@ class ConvergenceView {
     });
     Object.assign(this, {points, minimize});
     const failed = this.costs.filter((cost) => cost === null).length;
-    host.append(make('p', 'soft', `Minimized: mean of ${minimize} over ${points.points[0].rows.length} seeds; ${points.points.length} points tried` +
-      (failed ? `, ${failed} of them with a failed flight, which costs ${short(failure)} (crosses)` : '') + '.'));
+    const seeds = points.points[0].rows.length, tried = points.points.length;
+    host.append(make('p', 'soft', `Minimized: mean of ${minimize} over ${seeds} seed${seeds === 1 ? '' : 's'}; ${tried} point${tried === 1 ? '' : 's'} tried` +
+      (failed ? `, ${failed} of them with a failed flight, which costs ${failure.toLocaleString('en-US')}${failed < tried ? ' (crosses)' : ''}` : '') + '.'));
+    if (failed === tried) {
+      host.append(make('p', 'missing', 'Every point has a failed flight, so no cost can be drawn.'));
+      return;
+    }
     this.axes = new Axes(host.appendChild(make('div')), 260, {
       draw: (c) => this.draw(c), hover: (x) => this.lines(x), pick: (x) => { const i = this.at(x); if (i !== null) on.choosePoint(i); }});
     const order = numberAxis('point, in the order of the search', [1, this.costs.length]);

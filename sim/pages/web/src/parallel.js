@@ -22,11 +22,11 @@ class ParallelView {
     const {points} = this, extra = ['passed', 'min_obstacle_clearance_m', 'flight_time_s'].filter((name) => name !== choice.column && points.varies(name)).slice(0, 2);
     const ofParameter = (path, k) => {
       const {axis, at} = parameterAxis(points, k);
-      return {name: path, axis, of: (i) => at(points.points[i].values[k])};
+      return {name: points.headings()[k], axis, of: (i) => at(points.points[i].values[k])};
     };
     const ofColumn = (name) => {
       const figures = points.of(name);
-      return {name: 'mean ' + name, axis: numberAxis('', figures.map(({mean}) => mean)), of: (i) => figures[i].mean};
+      return {name: 'mean ' + name.split('.').at(-1), axis: numberAxis('', figures.map(({mean}) => mean)), of: (i) => figures[i].mean};
     };
     this.axes = [...points.paths.map(ofParameter), ...extra.map(ofColumn), ofColumn(choice.column)];
     this.range = finiteRange(points.of(choice.column).map(({mean}) => mean));
@@ -54,7 +54,7 @@ class ParallelView {
     c.font = this.font;
     // Whole names, in as many lines as they need.
     const room = Math.min(88, (width - 92) / (this.axes.length - 1) - 6);
-    const names = this.axes.map(({name}) => wrappedLines(c, name.replace(/^.*\.(?=[^.]+$)/, ''), room));
+    const names = this.axes.map(({name}) => wrappedLines(c, name, room));
     const height = this.bottom + 10 + 13 * Math.max(...names.map(({length}) => length));
     this.canvas.width = Math.round(width * dpr);
     this.canvas.height = Math.round(height * dpr);
@@ -89,7 +89,8 @@ class ParallelView {
       c.moveTo(x, 16);
       c.lineTo(x, this.bottom);
       c.stroke();
-      const ticks = axis.ticks ?? niceTicks(axis.low, axis.high, 5).values.map((value) => ({value, text: short(Math.abs(value) < 1e-12 ? 0 : value)}));
+      const {values} = niceTicks(axis.low, axis.high, 5), texts = tickTexts(values);
+      const ticks = axis.ticks ?? values.map((value, i) => ({value, text: texts[i]}));
       for (const {value, text} of ticks) {
         const y = this.y(k, value), wide = c.measureText(text).width;
         c.fillStyle = themeColor('card');

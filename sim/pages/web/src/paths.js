@@ -35,6 +35,10 @@ class PathsView {
     for (const row of this.rows) {
       for (const key of ['n', 'e']) reach[key].push(...finiteRange(this.paths[row][key]));
     }
+    for (const [n, e, radius] of this.goalsOf(this.rows)) {
+      reach.n.push(n - radius, n + radius);
+      reach.e.push(e - radius, e + radius);
+    }
     this.host.replaceChildren();
     this.map = new MapView(this.host, this.maps[number] ?? {bounds: [], footprints: [], movers: [], goal: null}, reach, {
       draw: (c) => this.draw(c),
@@ -56,6 +60,11 @@ class PathsView {
     });
   }
 
+  /** Returns the different goals of flights; none if they are too many to be drawn. */
+  goalsOf(rows) {
+    const goals = new Map(rows.map((row) => [String(this.goals[row]), this.goals[row]]));
+    return goals.size <= 20 ? [...goals.values()].filter(Boolean) : [];
+  }
   setRows(rows) {
     this.shown = new Set(rows);
     this.nameScenes();
@@ -82,8 +91,7 @@ class PathsView {
   }
   draw(c) {
     const rows = this.rows.filter((row) => this.shown.has(row)), {map} = this;
-    const goals = new Map(rows.map((row) => [String(this.goals[row]), this.goals[row]]));
-    if (goals.size <= 20) for (const goal of goals.values()) if (goal) map.drawGoal(c, {n: goal[0], e: goal[1], radius: goal[2]});
+    for (const [n, e, radius] of this.goalsOf(rows)) map.drawGoal(c, {n, e, radius});
     c.lineWidth = rows.length > 200 ? 1 : 1.5;
     // Rare verdicts are drawn last, on top.
     for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {

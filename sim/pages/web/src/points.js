@@ -79,7 +79,7 @@ function wilsonInterval(rate, n) {
   const half = z * Math.sqrt(rate * (1 - rate) / n + z * z / (4 * n * n)) / (1 + z * z / n);
   return {low: rate === 0 ? 0 : middle - half, high: rate === 1 ? 1 : middle + half};
 }
-function valueWords(value) { return typeof value === 'number' ? short(value) : String(value); }
+function valueWords(value, figures = 4) { return typeof value === 'number' ? short(value, figures) : String(value); }
 
 /** Seeds as the command line takes them: "1:3,7". */
 function seedList(seeds) {
@@ -105,13 +105,14 @@ function parameterAxis(points, k) {
   const path = points.paths[k], values = points.points.map((point) => point.values[k]);
   if (points.table.columns.get(path).is_text) {
     const words = [...new Set(values)];
-    return {axis: wordAxis(path, words), at: (value) => words.indexOf(value), levels: words};
+    return {axis: wordAxis(points.label(path), words), at: (value) => words.indexOf(value), levels: words};
   }
   const levels = [...new Set(values)].sort((a, b) => a - b);
   if (!points.sweep.parameters[k]?.log) return {axis: numberAxis(points.label(path), values), at: (value) => value, levels};
   const axis = numberAxis(points.label(path), values.map(Math.log10));
   const shown = levels.length <= 8 ? levels : [0, 0.25, 0.5, 0.75, 1].map((share) => levels[Math.round(share * (levels.length - 1))]);
-  axis.ticks = shown.map((value) => ({value: Math.log10(value), text: short(value, 3)}));
+  const figures = figuresFor(shown, 3);
+  axis.ticks = shown.map((value) => ({value: Math.log10(value), text: short(value, figures)}));
   return {axis, at: Math.log10, levels};
 }
 
@@ -119,10 +120,11 @@ function parameterAxis(points, k) {
 function parameterBins(points, k) {
   const {axis, at, levels} = parameterAxis(points, k);
   if (levels.length <= mostCategories) {
-    return {axis, words: levels.map(valueWords), of: (value) => levels.indexOf(value), at: (i) => at(levels[i]), levels: true};
+    const figures = points.table.columns.get(points.paths[k]).is_text || figuresFor(levels);
+    return {axis, words: levels.map((value) => valueWords(value, figures)), of: (value) => levels.indexOf(value), at: (i) => at(levels[i]), levels: true};
   }
   const [low, high] = finiteRange(levels.map(at)), step = (high - low) / numberBins;
   const back = (x) => points.sweep.parameters[k]?.log ? 10 ** x : x;
-  const words = Array.from({length: numberBins}, (_, i) => `${short(back(low + i * step), 3)} to ${short(back(low + (i + 1) * step), 3)}`);
+  const words = rangeWords(Array.from({length: numberBins + 1}, (_, i) => back(low + i * step)));
   return {axis, words, of: (value) => Math.min(numberBins - 1, Math.floor((at(value) - low) / step)), at: (i) => low + (i + 0.5) * step, levels: false};
 }

@@ -31,7 +31,7 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   badge.append(make('span', 'mark', bad ? '✕' : all ? '✓' : '–'));
   const lines = badge.appendChild(make('div'));
   lines.append(make('strong', '', words));
-  lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : `all ${all} checks hold`));
+  lines.append(make('span', '', !all ? 'no checks' : failed ? `${failed} of ${all} checks fail` : all === 1 ? 'the check holds' : `all ${all} checks hold`));
   if (result.failures?.length) what.append(make('p', 'fail', `Failures injected by the scenario: ${result.failures.join('; ')}`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
 }
@@ -66,7 +66,7 @@ function addRow(table, cells, tag = 'td') {
 
 const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
 
-function fillChecks(host, checks) {
+function fillChecks(host, {checks, closest_obstacle, closest_ground}) {
   if (!checks.length) {
     host.append(make('p', 'soft', 'The scenario defines no checks.'));
     return;
@@ -79,9 +79,11 @@ function fillChecks(host, checks) {
     addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);
+    const closest = [closest_obstacle, closest_ground].find((place) => place?.distance_m === value && place.t_s === t_s);
+    if (passed && closest?.what) table.lastChild.children[1].append(make('span', 'soft', ` (${closest.what})`));
     table.lastChild.firstChild.append(make('span', 'word', passed ? ' holds' : ' fails'));
     if (passed || !cause) continue;
-    addRow(table, [['', ''], [cause, 'soft']]);
+    addRow(table, [['', ''], [quoted(cause), 'soft']]);
     table.lastChild.lastChild.colSpan = 4;
   }
 }
@@ -103,7 +105,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
   const metrics = Object.entries(result.metrics).map(([name, value]) => {
     const unit = result.metric_units?.[name] ?? '';
     const shown = unit && name.endsWith(unitSuffix(unit)) ? name.slice(0, -unitSuffix(unit).length) : name;
-    return [shown.replaceAll('_', ' '), measured(value, unit)];
+    return [shown.replace(/^module\.(.*)/, '$1, reported by the module').replaceAll('_', ' '), measured(value, unit)];
   });
   const half = Math.max(8, Math.ceil(metrics.length / 2));
   for (const rows of [metrics.slice(0, half), metrics.slice(half)]) if (rows.length) add('metric', rows);
@@ -181,7 +183,7 @@ function main() {
   dropUnflownGoal(data);
   fillVerdict(document.getElementById('verdict'), data);
   fillTiles(document.getElementById('tiles'), data.result);
-  fillChecks(document.getElementById('checks'), data.result.checks);
+  fillChecks(document.getElementById('checks'), data.result);
   fillDetails(document.getElementById('details'), data);
   const film = openFilm(), filmView = film && new FilmView(film);
   if (film) setPoster(film, data.result.closest_obstacle?.t_s ?? 0);

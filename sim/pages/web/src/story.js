@@ -35,10 +35,10 @@ function storyLines({result, path}) {
   if (result.outcome === 'collided') {
     lines.push(`Hit ${result.closest_obstacle?.what || 'an obstacle'} at ${fixed(t_s, 1)} s, flying ${fixed(path.speed[end], 1)} m/s at ${fixed(path.altitude[end], 1)} m altitude.`);
   } else if (['fault', 'link_lost'].includes(result.outcome)) {
-    lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${result.cause}`);
+    lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${quoted(result.cause)}`);
   } else {
     const cause = result.cause || 'ended before its goal or failed a check';  // results of earlier versions name no cause
-    lines.push((cause.startsWith('in ') ? 'I' + cause.slice(1) : cause) + '.');  // a cause may begin with the name of a check
+    lines.push(quoted(cause.startsWith('in ') ? 'I' + cause.slice(1) : cause) + '.');  // a cause may begin with the name of a check
   }
   if (result.goal_missed_unchecked) lines.push('No check requires the goal; to require it, add {check: reached_goal} to the checks.');
   const status = path.statuses[path.status[end]];

@@ -9,19 +9,25 @@ function columnBins(column, rows) {
   if (column.is_text || values.length <= mostCategories) {
     values.sort((a, b) => a < b ? -1 : a > b ? 1 : 0);
     const index = new Map(values.map((v, i) => [v, i]));
-    const words = values.map((v) => column.is_text ? v : short(v));
+    const figures = column.is_text || figuresFor(values), words = values.map((v) => column.is_text ? v : short(v, figures));
     return {axis: wordAxis(columnLabel(column), words), words, of: (row) => index.get(column.values[row]) ?? -1};
   }
   const [low, high] = finiteRange(values), step = (high - low) / numberBins;
-  const words = Array.from({length: numberBins}, (_, i) => `${short(low + i * step, 3)} to ${short(low + (i + 1) * step, 3)}`);
+  const ends = Array.from({length: numberBins + 1}, (_, i) => low + i * step), words = rangeWords(ends);
   const of = (row) => {
     const v = column.values[row];
     return v === null ? -1 : Math.min(numberBins - 1, Math.floor((v - low) / step));
   };
   const axis = wordAxis(columnLabel(column), words);
   axis.words = null;  // its ticks are the ends of the ranges
-  axis.ticks = Array.from({length: numberBins + 1}, (_, i) => ({value: i - 0.5, text: short(low + i * step, 3)}));
+  axis.ticks = ends.map((value, i) => ({value: i - 0.5, text: short(value, figuresFor(ends, 3))}));
   return {axis, words, of};
+}
+
+/** Returns "0.1 to 0.2" for each range between neighboring ends. */
+function rangeWords(ends) {
+  const texts = ends.map((value) => short(value, figuresFor(ends, 3)));
+  return texts.slice(1).map((end, i) => `${texts[i]} to ${end}`);
 }
 
 /** Counts of flights in cells "x,y": {passed, ended, rows}. Flights that were not flown do not count. */
@@ -83,11 +89,11 @@ class SuccessMap {
     c.textAlign = 'center';
     c.textBaseline = 'middle';
     for (const {x, y, passed, ended} of this.cells.values()) {
-      c.fillStyle = ramp(passed / ended);
+      const color = c.fillStyle = ramp(passed / ended);
       c.fillRect(axes.x(x - 0.5) + 1, axes.y(y + 0.5) + 1, width - 2, height - 2);
       const text = `${passed}/${ended}`;
       if (c.measureText(text).width + 6 > width || height < 14) continue;
-      c.fillStyle = passed / ended > 0.2 && passed / ended < 0.85 ? '#1b2330' : '#ffffff';
+      c.fillStyle = inkOn(color);
       c.fillText(text, axes.x(x), axes.y(y));
     }
   }
