@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
-/// Upper end of the clearance plot. Larger clearances are no danger.
+/// Upper end of the clearance plot if a clearance lies below it. Larger clearances are no danger.
 constexpr double kClearanceShownM = 20.0;
 
 template <class Function>
@@ -98,13 +98,15 @@ void add_motion(TrajectoryPanels& p, const std::vector<Limit>& clearance_limits)
                        {{"obstacles", "a", clearance}, {"ground", "b", p.column("ground_clearance_m")}});
   panel.lowest = 0.0;
   panel.limits = clearance_limits;
-  double largest = 0.0;
+  double least = kClearanceShownM, largest = 0.0;
   for (const Series& series : panel.series) {
     for (const double value : series.values) {
-      if (std::isfinite(value)) largest = std::max(largest, value);
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      largest = std::max(largest, value);
     }
   }
-  if (largest > kClearanceShownM) panel.highest = kClearanceShownM;
+  if (least < kClearanceShownM && largest > kClearanceShownM) panel.highest = kClearanceShownM;
 
   p.add(kMotionSection, "Altitude", "m", kTruthNote,
         {{"commanded", "cmd", p.column("cmd_altitude_m")},
@@ -193,6 +195,7 @@ SignalName read_name(std::string_view name) {
   result.group = name.substr(0, end);
   result.label = end == std::string_view::npos ? name : name.substr(end + 1);
   std::ranges::replace(result.label, '_', ' ');
+  if (result.unit == "m/s" && result.label.starts_with("v ")) result.label.replace(0, 1, "velocity");
   for (const std::string_view camera : kCameras) {
     if (result.label.find(camera) != std::string::npos) result.role = camera == "aft" ? "rear" : camera;
   }

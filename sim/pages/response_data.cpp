@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -48,6 +49,21 @@ std::vector<double> unwrapped_deg(const std::vector<std::complex<double>>& value
   return phases;
 }
 
+/// Returns the name of a state with its meaning: "pitch rate, q".
+std::string state_words(const std::string& name) {
+  static const std::map<std::string_view, std::string_view> kMeanings = {{"u", "forward velocity"},
+                                                                         {"v", "velocity to the right"},
+                                                                         {"w", "downward velocity"},
+                                                                         {"p", "roll rate"},
+                                                                         {"q", "pitch rate"},
+                                                                         {"r", "yaw rate"},
+                                                                         {"phi", "roll"},
+                                                                         {"theta", "pitch"},
+                                                                         {"psi", "yaw"}};
+  const auto found = kMeanings.find(name);
+  return found == kMeanings.end() ? name : std::string(found->second) + ", " + name;
+}
+
 /// Returns the body's states, the main ones first.
 std::vector<Eigen::Index> states_in_order(const ResponsePlot& plot) {
   std::vector<Eigen::Index> order = plot.main_states;
@@ -90,7 +106,7 @@ Json step_data(const ResponsePlot& plot, const dynamics::NamedLinearSystem& line
   for (const Eigen::Index i : states_in_order(plot)) {
     const std::string& name = linear.states[static_cast<size_t>(i)];
     const auto [unit, scale] = readable_unit(linear.state_units[static_cast<size_t>(i)]);
-    Json panel = response_panel("Response, from trim", name, unit, "t_s", times);
+    Json panel = response_panel("Response, from trim", state_words(name), unit, "t_s", times);
     add_series(panel, "full model", "true", scaled(record.states.col(i), scale));
     add_series(panel, "linear model", "est", scaled(linear_states.col(i), scale));
     panels.push_back(std::move(panel));
@@ -111,7 +127,7 @@ Json identification_data(const ResponsePlot& plot, const dynamics::identificatio
     const size_t middle = model.phase_deg.size() / 2;
     const double turns = std::round((measured.phase_deg[middle] - model.phase_deg[middle]) / 360.0);
     for (double& phase : model.phase_deg) phase += 360.0 * turns;
-    const std::string section = found.linear.states[index] + " per " + plot.input;
+    const std::string section = state_words(found.linear.states[index]) + " per " + plot.input;
     Json gain = response_panel(section, "Gain", "dB of " + unit + " per " + plot.input_unit, "w_radps", frequencies);
     add_series(gain, "identified", "true", measured.gain_db);
     add_series(gain, "linear model", "est", model.gain_db);

@@ -87,6 +87,17 @@ TEST(Panels, VelocityAlongTheHeadingIsForwardOnly) {
   for (const double v : panel(panels, "Sideways").series[2].values) EXPECT_NEAR(v, 0.0, 1e-12);
 }
 
+TEST(Panels, ClearancesAboveTheLimitOfThePlotRemainVisible) {
+  Flight flight = fake_flight(0.5, 1);
+  const auto highest = [&](double clearance_m) {
+    for (TrajectoryRow& row : flight.trajectory) row.obstacle_clearance_m = row.ground_clearance_m = clearance_m;
+    flight.trajectory.back().obstacle_clearance_m = 30.0;
+    return panel(trajectory_panels(Tables(flight).trajectory(), {}), "Clearance").highest;
+  };
+  EXPECT_EQ(highest(5.0), 20.0);
+  EXPECT_EQ(highest(25.0), std::nullopt);
+}
+
 TEST(Panels, HeadingThroughSouthDoesNotJump) {
   Flight flight = fake_flight(2.0, 1);
   double yaw_rad = 3.0;
@@ -130,7 +141,7 @@ TEST(Panels, CommonFirstWordsOfSignalsAreTheTitle) {
   EXPECT_EQ(panels[0].series[1].label, "right");
   EXPECT_EQ(panels[1].title, "Speed");
   EXPECT_EQ(panels[1].series[0].label, "speed");
-  EXPECT_EQ(panels[2].title, "Target v");
+  EXPECT_EQ(panels[2].title, "Target velocity");
   EXPECT_EQ(panels[2].series[0].label, "north");
 }
 

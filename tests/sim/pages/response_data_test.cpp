@@ -27,7 +27,7 @@ TEST(StepData, PlotsBothModelsInReadableUnitsOverTime) {
   EXPECT_EQ(data["axis"]["key"], "t_s");
   ASSERT_EQ(data["panels"].size(), 10u);
   const Json& q = data["panels"][1];
-  EXPECT_EQ(q["title"], "q");
+  EXPECT_EQ(q["title"], "pitch rate, q");
   EXPECT_EQ(q["unit"], "deg/s");
   ASSERT_EQ(q["series"].size(), 2u);
   EXPECT_EQ(q["series"][0]["values"].size(), q["t_s"].size());
