@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "sim/config/include.h"
 #include "sim/config/outline_texts.h"
@@ -48,10 +50,24 @@ std::optional<Difference> first_difference(const Table& own, const Table& other)
   return first;
 }
 
+/// Returns both values; numbers with as many figures, at least four, as distinguish them.
+std::pair<std::string, std::string> shown_pair(const std::string& own, const std::string& other) {
+  char *own_end = nullptr, *other_end = nullptr;
+  const double a = std::strtod(own.c_str(), &own_end), b = std::strtod(other.c_str(), &other_end);
+  const bool numbers = !own.empty() && !other.empty() && *own_end == '\0' && *other_end == '\0';
+  constexpr int kMostFigures = 17;  // these distinguish all doubles
+  for (int figures = 4; numbers && figures <= kMostFigures; ++figures) {
+    const auto words = [figures](double value) { return fmt::format("{:.{}g}", value, figures); };
+    if (words(a) != words(b)) return {words(a), words(b)};
+  }
+  const auto shown = [](const std::string& text) { return text.empty() ? "no value" : text; };
+  return {shown(own), shown(other)};
+}
+
 std::string words_of(const Difference& difference, std::string_view what) {
-  const auto shown = [](const std::string& text) { return text.empty() ? "no value" : text.substr(0, 12); };
-  return fmt::format("{} at {:.3f} s: {} is {} here, {} in the other run", what, difference.t_s, difference.column,
-                     shown(difference.own), shown(difference.other));
+  const auto [own, other] = shown_pair(difference.own, difference.other);
+  return fmt::format("{} at {:.3f} s: column {} is {} here, {} in the other run", what, difference.t_s,
+                     difference.column, own, other);
 }
 
 /// Returns lines that name the first difference of the decisions and of the flight.

@@ -92,13 +92,16 @@ Json campaign_row(const fs::path& folder, const std::string& name) {
   const auto passed = std::ranges::count_if(
       flights.records, [](const FlightRecord& record) { return verdict_of(record) == Verdict::passed; });
   const std::set<std::string> builds = builds_of(flights.records);
-  const char* const kind = fs::exists(folder / "falsify.csv") ? "search" : flights.is_sweep ? "sweep" : "batch";
-  return {{"kind", kind},
+  const bool is_search = fs::exists(folder / "falsify.csv");
+  const char* const table = is_search ? "falsify.csv" : flights.is_sweep ? "sweep.csv" : "batch.csv";
+  return {{"kind", is_search          ? "search"
+                   : flights.is_sweep ? "sweep"
+                                      : "batch"},
           {"folder", name},
           {"flights", flights.records.size()},
           {"passed", passed},
           {"build", builds.size() == 1 ? *builds.begin() : fmt::format("{} builds", builds.size())},
-          {"date", date_of(folder / (flights.is_sweep ? "sweep.csv" : "batch.csv"))},
+          {"date", date_of(folder / table)},
           {"report", fs::exists(folder / "report.html")}};
 }
 

@@ -183,11 +183,13 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
   ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 3 --out all/b/run" + quick + words).status, 1);
   ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 1 --out all/a" + quick).status, 1);
   ASSERT_LE(folder.hedgehop("batch tiny.yaml --seeds 5 --out all/batch").status, 1);
+  write_file_whole(folder.path() / "all/search/falsify.csv", folder.read("all/batch/batch.csv"));
   ASSERT_EQ(folder.hedgehop("runs all").status, 0);
   const PageVisit page = visit(folder.path() / "all/index.html", R"js(
     const rows = () => [...document.querySelectorAll('#runs tbody tr')].map((tr) => tr.children[3].textContent);
     document.querySelector('#runs th[data-column="seed"]').click();
-    const seen = {rising: rows(), campaigns: document.querySelectorAll('#campaigns tbody tr').length,
+    const search = [...document.querySelectorAll('#campaigns tbody tr')].find((tr) => tr.children[1].textContent === 'search');
+    const seen = {search: search.children[5].textContent, rising: rows(), campaigns: document.querySelectorAll('#campaigns tbody tr').length,
                   module: document.querySelector('#runs tbody tr').children[2].textContent};
     document.querySelector('#inside input').click();
     seen.all = rows();
@@ -202,7 +204,8 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
   EXPECT_EQ(page.value.at("rising"), (std::vector<std::string>{"1", "3"}));
   EXPECT_EQ(page.value.at("all"), (std::vector<std::string>{"1", "3", "5"}));
   EXPECT_EQ(page.value.at("filtered"), (std::vector<std::string>{"3"}));
-  EXPECT_EQ(page.value.at("campaigns"), 1);
+  EXPECT_EQ(page.value.at("campaigns"), 2);
+  EXPECT_THAT(page.value.at("search").get<std::string>(), ::testing::StartsWith("20")) << "the year of its date";
   EXPECT_EQ(page.value.at("module"), "go_to_goal");
   EXPECT_EQ(folder.hedgehop("runs configs").status, 2);
 }
@@ -235,7 +238,9 @@ TEST(RunAgainst, NamesTheFirstDifferenceAndTheSettings) {
             plots: host.querySelectorAll('.u-wrap').length};)js");
   EXPECT_THAT(page.errors, IsEmpty());
   ASSERT_FALSE(page.value.at("lines").empty());
-  EXPECT_THAT(page.value.at("lines")[0].get<std::string>(), HasSubstr("First decision that differs at 0.0"));
+  EXPECT_THAT(
+      page.value.at("lines")[0].get<std::string>(),
+      ::testing::MatchesRegex("First decision that differs at 0.0[0-9]* s: column [a-z_]+ is [-0-9.]{1,7} here, .*"));
   EXPECT_THAT(page.value.at("text").get<std::string>(), HasSubstr("avoidance.speed"));
   EXPECT_GT(page.value.at("plots"), 2);
   ASSERT_EQ(folder.hedgehop("report a --against a").status, 0);

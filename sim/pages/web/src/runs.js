@@ -63,7 +63,7 @@ function main() {
     new SortedTable(host('campaigns'), [{key: 'folder', label: 'folder'}, {key: 'kind', label: 'kind'}, {key: 'flights', label: 'flights', number: true},
       {key: 'passed', label: 'passed', number: true}, {key: 'build', label: 'build'}, {key: 'date', label: 'date, UTC'}], data.campaigns, 'date', true);
   }
-  const columns = [{key: 'name', label: 'name'}, {key: 'folder', label: 'folder'}, {key: 'module', label: 'module'}, {key: 'seed', label: 'seed', number: true},
+  const columns = [{key: 'name', label: 'name'}, {key: 'folder', label: 'folder', look: () => 'folder'}, {key: 'module', label: 'module'}, {key: 'seed', label: 'seed', number: true},
     {key: 'outcome', label: 'outcome'}, {key: 'verdict', label: 'checks', look: verdictLook},
     {key: 'flight_time_s', label: 'time, s', number: true, words: (r) => fixed(r.flight_time_s, 1)},
     {key: 'min_obstacle_clearance_m', label: 'clearance, m', number: true, words: (r) => fixed(r.min_obstacle_clearance_m, 2)},
