@@ -12,12 +12,14 @@
 
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
+#include "sim/config/config_outline.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/result_io.h"
 #include "sim/pages/report_page.h"
+#include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -48,6 +50,25 @@ std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& w
   return numbers;
 }
 
+/// Adds the units of all fields with this path, such as "avoidance.speed", for any choice of type.
+void add_units(const ConfigOutline& node, std::string_view path, std::set<std::string_view>& units) {
+  if (path.empty()) units.insert(node.field.unit);
+  const size_t dot = std::min(path.find('.'), path.size());
+  const std::string_view rest = path.substr(std::min(dot + 1, path.size()));
+  for (const ConfigOutline& item : node.item) add_units(item, rest, units);
+  for (const ConfigOutline& choice : node.all) add_units(choice, path, units);
+  for (const ConfigOutline& part : node.parts) {
+    if (!path.empty() && part.key == path.substr(0, dot)) add_units(part, rest, units);
+  }
+}
+
+std::string unit_of_parameter(const std::string& path) {
+  static const ConfigOutline scenario{.parts = outline_fields(Scenario{})};
+  std::set<std::string_view> units;
+  add_units(scenario, path, units);
+  return units.size() == 1 ? std::string(*units.begin()) : "";
+}
+
 std::string unit_of(const std::string& name, const std::vector<FlightNotes>& notes) {
   for (const FlightNotes& note : notes) {
     if (const auto found = note.units.find(name); found != note.units.end()) return found->second;
@@ -55,7 +76,7 @@ std::string unit_of(const std::string& name, const std::vector<FlightNotes>& not
   if (name.starts_with("time.") && name.find("_ms") != std::string::npos) return "ms";
   if (name.ends_with("_mps")) return "m/s";
   if (name.ends_with("_m")) return "m";
-  return name.ends_with("_s") ? "s" : "";
+  return name.ends_with("_s") ? "s" : unit_of_parameter(name);
 }
 
 Json group_row(const GroupSummary& group, bool anytime) {
@@ -84,20 +105,20 @@ GroupSummary all_of(std::vector<FlightRecord> records, const std::set<std::strin
   return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
 }
 
-/// Returns the name of the failed check with the earliest time; checks of the whole flight are last.
+/// Returns the name of the failed check with the earliest time; checks of the whole flight are last. A collision counts
+/// as the check for collisions, because a check of the clearance fails before it.
 std::string first_failed(const FlightRecord& record) {
   const Verdict verdict = verdict_of(record);
   if (holds(verdict)) return "";
   if (verdict == Verdict::not_flown) return outcome_words(record);
+  if (record.result->flight.outcome == Outcome::collided) return "no_collision";
   const CheckResult* first = nullptr;
   const auto time_s = [](const CheckResult& check) { return check.t_s.value_or(INFINITY); };
   for (const CheckResult& check : record.result->flight.checks) {
     if (!check.passed && (first == nullptr || time_s(check) < time_s(*first))) first = &check;
   }
   if (first == nullptr) return outcome_words(record);
-  if (!first->name.empty()) return first->name;
-  // A table without the flights' own files does not name the checks.
-  return record.result->flight.outcome == Outcome::collided ? "no_collision" : "unknown check";
+  return first->name.empty() ? "unknown check" : first->name;  // a table without the flights' own files has no names
 }
 
 /// Returns a key of scenario and seed, which is equal for flights that differ in their settings only.

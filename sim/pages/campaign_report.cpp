@@ -22,8 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns all flights as one group.
-GroupSummary total(std::vector<FlightRecord> records) {
+/// Returns all flights, except those of some groups, as one group.
+GroupSummary total(std::vector<FlightRecord> records, const std::set<std::string>& without) {
+  std::erase_if(records, [&](const FlightRecord& record) { return without.contains(record.order.group); });
   for (FlightRecord& record : records) record.order.group = "all";
   return records.empty() ? GroupSummary{} : summarize(records).front();
 }
@@ -82,8 +83,9 @@ Json search_data(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
-  const GroupSummary all = total(records);
+Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records,
+                 const std::set<std::string>& controls) {
+  const GroupSummary all = total(records, controls);
   const Json conduct = conduct_data(folder);
   const bool sequential = !conduct.is_null() && !conduct.at("sequential").empty();
   const auto interval = [&](Count count) -> Json {
@@ -91,7 +93,8 @@ Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRe
         sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
     return {i.low, i.high};
   };
-  const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>();
+  const int64_t of_controls = static_cast<int64_t>(records.size()) - all.flights;
+  const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>() - of_controls;
   const int64_t broken = all.fault + all.failed;
   Json data{{"counts",
              {{"planned", planned},
@@ -133,9 +136,10 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["swept"] = swept_columns(flights);
   data["sweep"] = sweep_data(folder, flights);
   data["leaderboard"] = leaderboard_data(folder, flights);
-  data["claims"] = claims_data(folder, flights.records);
-  data["controls"] = control_groups(data["leaderboard"]);
-  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime", data["controls"]);
+  const std::set<std::string> controls = control_groups(data["leaderboard"]);
+  data["controls"] = controls;
+  data["claims"] = claims_data(folder, flights.records, controls);
+  data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime", controls);
   data["columns"] = columns_data(flights.table, notes);
   for (const char* key : {"why", "failed", "report", "replay"}) data[key] = Json::array();
   for (const FlightNotes& note : notes) {

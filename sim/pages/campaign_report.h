@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "sim/batch/record.h"
@@ -14,8 +16,9 @@ namespace hedgehop::sim {
 /// flights as failures and as passes; null if no flight is missing), `no_collision` (flights, 3/n and the exact
 /// one-sided bound; null if a flight collided or broke), and `conduct` of conduct_data() (null for a sweep). Source of
 /// the bounds without an event: [HanleyLippmanHand1983] p. 1743, the rule of three.
-/// @param folder  of the campaign. @param records  of its table.
-nlohmann::ordered_json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
+/// @param folder  of the campaign. @param records  of its table. @param controls  groups that do not count.
+nlohmann::ordered_json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records,
+                                   const std::set<std::string>& controls = {});
 
 /// Writes `report.html` into the folder of a batch or sweep from its table of flights and the result.json,
 /// scenario.yaml, trajectory.csv and strip.jpg of each flight. A flight without a folder keeps its row. The page is one

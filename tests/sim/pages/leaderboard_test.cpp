@@ -87,9 +87,14 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
     }
     const key = [...document.querySelectorAll('#collisions-card .plan-key span')].map((e) => e.textContent);
     const head = [...document.querySelectorAll('#head .tile .name, #head strong')].map((e) => e.textContent);
-    return {head, plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+    const claims = document.getElementById('claims-card').textContent, text = document.getElementById('head').textContent;
+    return {head, claims, text, plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
   EXPECT_THAT(page.errors, testing::IsEmpty());
   EXPECT_EQ(page.value.at("head"), Json::array({"4 of 6 did not pass", "fast", "slow", "still (control)"}));
+  EXPECT_THAT(page.value.at("text").get<std::string>(),
+              AllOf(HasSubstr("; without the control"), HasSubstr("10 flights, 4 of them of the control")));
+  EXPECT_THAT(page.value.at("claims").get<std::string>(),
+              HasSubstr("Without the control: 6 planned, 6 counted, 2 passed, 4 failed a check"));
   ASSERT_EQ(page.value.at("rows").size(), 2u);
   EXPECT_EQ(page.value.at("rows")[0][0], "near");
   EXPECT_THAT(page.value.at("rows")[0][3].get<std::string>(), HasSubstr("2 of 2 0.34 to 1.00"));

@@ -121,7 +121,7 @@ TEST(ReportInBrowser, StartsWithTheCauseOfATimeoutAndABarOfItsStatuses) {
     return [document.querySelector('#story li').textContent, document.getElementById('story').textContent.includes('{check: reached_goal}'),
             spans.filter(Boolean), document.querySelector('#story .ribbon p').textContent];)js");
   EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_EQ(page.value[0], "In its last 5 s the module reported `look` and commanded 0 m/s.");
+  EXPECT_EQ(page.value[0], "In its last 5 s the module reported “look” and commanded 0 m/s.");
   EXPECT_EQ(page.value[1], true);
   EXPECT_THAT(page.value[2], ElementsAre("go", "look"));
   EXPECT_EQ(page.value[3], "go look ");

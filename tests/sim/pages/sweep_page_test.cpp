@@ -183,6 +183,7 @@ TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
   ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 3 --out all/b/run" + quick + words).status, 1);
   ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 1 --out all/a" + quick).status, 1);
   ASSERT_LE(folder.hedgehop("batch tiny.yaml --seeds 5 --out all/batch").status, 1);
+  std::filesystem::create_directories(folder.path() / "all/search");
   write_file_whole(folder.path() / "all/search/falsify.csv", folder.read("all/batch/batch.csv"));
   ASSERT_EQ(folder.hedgehop("runs all").status, 0);
   const PageVisit page = visit(folder.path() / "all/index.html", R"js(

@@ -23,14 +23,15 @@ function addRow(table, cells, tag = 'td') {
 /** Returns the verdict on all flights: {words, more, look}. */
 function campaignVerdict(data, table) {
   const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [];
-  const more = table.failureCounts(table.rowsOf(null, data.controls)).map(([name, count]) => `${failureWords[name] ?? name.replaceAll('_', ' ')}: ${count}`).join(', ');
+  const counts = table.failureCounts(table.rowsOf(null, data.controls)).map(([name, count]) => `${failureWords[name] ?? name.replaceAll('_', ' ')}: ${count}`).join(', ');
+  const more = [counts, data.controls.length ? 'without the control' : ''].filter(Boolean).join('; ');
   if (claims.length) {
     const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
     return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: claims.map(({rule}) => rule).join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
   }
   if (all.no_checks === all.flights) return {words: 'No checks', more: 'no checks defined', look: ''};
   const failed = all.flights - all.passed - all.no_checks;
-  return failed ? {words: `${failed} of ${all.flights} did not pass`, more: `by the first failed check: ${more}`, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
+  return failed ? {words: `${failed} of ${all.flights} did not pass`, more: `by collision or first failed check: ${more}`, look: 'bad'} : {words: `All ${all.passed} passed`, more, look: 'good'};
 }
 
 function fillHead(host, data, table) {
@@ -42,7 +43,8 @@ function fillHead(host, data, table) {
   for (const line of data.mixture.split('\n').filter(Boolean)) host.append(make('p', 'bad-text', line));
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
-  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
+  const control = data.controls.reduce((sum, group) => sum + table.rowsOf(group).length, 0), ofControl = control ? `, ${control} of them of the control` : '';
+  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights${ofControl}; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
   if (data.truth_used) host.append(make('p', 'bad-text', data.truth_used));
   const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
   const tile = (name, value, more) => {
@@ -112,7 +114,7 @@ function worstFlights(table, rows) {
   const failing = (outcome) => flown.filter((row) => table.value('outcome', row) === outcome && table.value('passed', row) === 0);
   return [
     {title: 'Collided, earliest first', rows: first(flown.filter((row) => table.verdict(row) === 'collided'), 'flight_time_s', false),
-      words: (row) => `after ${fixed(table.value('flight_time_s', row), 1)} s`},
+      words: (row) => quoted(table.value('cause', row) || `after ${fixed(table.value('flight_time_s', row), 1)} s`)},
     {title: 'Minimum clearance without a collision', rows: first(clear, 'min_obstacle_clearance_m', false),
       words: (row) => meters(table.value('min_obstacle_clearance_m', row))},
     {title: 'Timeout, largest distance to the goal first', rows: first(failing('timeout'), 'goal_distance_m', true), words: (row) => meters(table.value('goal_distance_m', row))},
@@ -120,7 +122,7 @@ function worstFlights(table, rows) {
     {title: 'Goal reached, but a check failed', rows: failing('reached').slice(0, worstOfAKind), words: (row) => table.why[row]},
     {title: 'Passed, slowest first', rows: first(clear.filter((row) => table.verdict(row) === 'passed'), 'flight_time_s', true), words: (row) => fixed(table.value('flight_time_s', row), 1) + ' s'},
     {title: 'Fault, or no result', rows: rows.filter((row) => table.value('status', row) === 'failed' || ['fault', 'link_lost'].includes(table.value('outcome', row))).slice(0, worstOfAKind),
-      words: () => ''},
+      words: (row) => table.why[row]},
   ];
 }
 function fillWorst(host, data, table, rows, on) {
@@ -188,7 +190,7 @@ function main() {
     host('groups-card').remove();
     host('claims-card').remove();
   } else {
-    fillClaims(host('claims-card'), data.claims);
+    fillClaims(host('claims-card'), data.claims, data.controls.length > 0);
     if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
   }
 

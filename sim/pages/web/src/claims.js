@@ -50,9 +50,9 @@ function addPlan(host, plan) {
   addFact(host, 'deviations', deviations.length ? deviations : 'None.', deviations.length ? 'bad-text' : 'pass');
 }
 
-function fillClaims(host, claims) {
+function fillClaims(host, claims, without_control) {
   const {conduct} = claims, list = host.appendChild(make('dl', 'facts'));
-  addFact(list, 'flights', countWords(claims.counts));
+  addFact(list, 'flights', (without_control ? 'Without the control: ' : '') + countWords(claims.counts));
   addFact(list, 'rate', methodWords(claims));
   for (const found of conduct?.sequential ?? []) {
     const className = claims.if_missing || found.verdict === 'undecided' ? '' : found.verdict === 'shown' ? 'pass' : 'bad-text';

@@ -6,7 +6,7 @@ class FlightTable {
   constructor(data) {
     this.columns = new Map(data.columns.map((column) => [column.name, column]));
     this.count = this.columns.get('id').values.length;
-    this.why = data.why;
+    this.why = data.why.map(quoted);
     this.failed = data.failed;
     const outcomes = this.columns.get('outcome'), goals = this.columns.get('goal_distance_m');
     // A timeout without a goal is the normal end of a flight.
@@ -15,11 +15,11 @@ class FlightTable {
     this.why = this.why.map((words, row) => completed(row) ? words.replace(/^timeout/, 'completed') : words);
     outcomes.values = outcomes.values.map((word, row) => completed(row) ? 'completed' : word);
   }
-  /** Returns the counts of the flights by their first failed check: [[name, count], ...], most frequent first. */
+  /** Returns the counts of the flights by their first failed check: [[name, count], ...], collisions and then the most frequent first. */
   failureCounts(rows) {
     const counts = new Map();
     for (const row of rows) if (this.failed[row]) counts.set(this.failed[row], (counts.get(this.failed[row]) ?? 0) + 1);
-    return [...counts].sort(([, a], [, b]) => b - a);
+    return [...counts].sort(([first, a], [second, b]) => (second === 'no_collision') - (first === 'no_collision') || b - a);
   }
   /** Returns the rows of a group, or of all groups except these. */
   rowsOf(group, without = []) {
