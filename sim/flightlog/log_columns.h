@@ -53,7 +53,8 @@ void describe(Visitor& v, fields::ConfigOf<DutySpeedConfig> auto& c) {
 /// How to read a log, and how its inputs act.
 struct LogColumnsConfig {
   enum class Axes { frd, flu };
-  enum class Inputs { motor_speeds, pwm, controls, setpoints };
+  /// control_positions are the columns of `controls` with positions that servos or motors have reached.
+  enum class Inputs { motor_speeds, pwm, controls, setpoints, control_positions };
   Axes axes = Axes::frd;
   std::optional<Inputs> inputs;  ///< default: the first of these kinds whose columns the log has
   double warm_up_s = 0.5;
@@ -68,8 +69,9 @@ void describe(Visitor& v, fields::ConfigOf<LogColumnsConfig> auto& c) {
      .meaning = "axes of the log: frd (world north-east-down, body forward-right-down) or flu (world with z up, body "
                 "forward-left-up)"});
   v("inputs", c.inputs,
-    {.choices = {"motor_speeds", "pwm", "controls", "setpoints"},
-     .meaning = "recorded inputs; default: the first of these whose columns the log has"});
+    {.choices = {"motor_speeds", "pwm", "controls", "setpoints", "control_positions"},
+     .meaning = "recorded inputs; default: the first of these whose columns the log has; control_positions, in the "
+                "columns of controls, are positions that servos or motors have reached, as in trajectory.csv"});
   v("warm_up", c.warm_up_s,
     {.unit = "s",
      .at_least = 0.0,

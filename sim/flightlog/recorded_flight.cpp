@@ -119,13 +119,15 @@ void apply_duty(Eigen::MatrixXd& inputs, const DutySpeedConfig& pwm, const Quant
 void read_inputs(RecordedFlight& flight, const Quantities& log, const LogColumnsConfig& config,
                  const dynamics::VehicleConfig& vehicle) {
   const auto kinds = input_columns(vehicle);
+  const bool positions = config.inputs == Inputs::control_positions;
+  const std::optional<Inputs> columns_of = positions ? Inputs::controls : config.inputs;
   std::vector<std::string> wanted;
   for (const auto& [kind, names] : kinds) {
-    if (config.inputs ? kind != *config.inputs : !log.has(names)) {
+    if (columns_of ? kind != *columns_of : !log.has(names)) {
       wanted.push_back(fmt::format("{}", fmt::join(names, ", ")));
       continue;
     }
-    flight.kind = kind;
+    flight.kind = positions ? Inputs::control_positions : kind;
     flight.inputs.resize(static_cast<Eigen::Index>(log.rows()), static_cast<Eigen::Index>(names.size()));
     for (size_t k = 0; k < names.size(); ++k) {
       const std::vector<double> values = log.values(names[k]);

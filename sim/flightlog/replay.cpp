@@ -52,8 +52,8 @@ class Replay::Flyer {
     place(log, sample);
     settle(log, sample);
     if (log.kind != Inputs::setpoints) return;
-    autopilot_.emplace(dynamics::control::AutopilotConfig{}, vehicle_);
-    autopilot_->reset(perfect_estimate(log.states[sample]));
+    fly_steadily(log, sample);
+    place(log, sample);
   }
 
   /// Puts the body at the measured state of a sample.
@@ -67,19 +67,15 @@ class Replay::Flyer {
         flight_);
   }
 
-  /// Sets the rotor speeds that the log has measured; without effect for other inputs.
+  /// Sets the rotor speeds or control positions that the log has measured; without effect for other inputs.
   void measure(const RecordedFlight& log, size_t sample) {
-    if (log.kind == Inputs::motor_speeds) settle(log, sample);
+    if (log.kind == Inputs::motor_speeds || log.kind == Inputs::control_positions) settle(log, sample);
   }
 
   /// Flies from one sample to the next with the input of the first.
   void advance(const RecordedFlight& log, size_t sample) {
     measure(log, sample);
-    const double time_s = log.t_s[sample + 1] - log.t_s[sample];
-    const auto steps = std::max(1.0, std::ceil(time_s / kMaxStepS - 1e-9));
-    const double step_s = time_s / steps;
-    const dynamics::ActuatorCommand command = command_of(log, sample);
-    for (int i = 0; i < static_cast<int>(steps); ++i) step(with_feedback(command, log), log.wind_W[sample], step_s);
+    fly(command_of(log, sample), log, sample, log.t_s[sample + 1] - log.t_s[sample]);
   }
 
   const RigidBodyState& body() const {
@@ -92,21 +88,55 @@ class Replay::Flyer {
  private:
   /// Sets rotor speeds and servos to the input of a sample.
   void settle(const RecordedFlight& log, size_t sample) {
+    const bool controls = log.kind == Inputs::controls || log.kind == Inputs::control_positions;
     const Eigen::VectorXd input = log.inputs.row(static_cast<Eigen::Index>(sample)).transpose();
     if (auto* const multicopter = std::get_if<MulticopterFlight>(&flight_)) {
       if (log.kind == Inputs::setpoints) return;
       auto state = multicopter->state();
       state.speeds_radps =
-          log.kind == Inputs::controls
-              ? allocate(multicopter->model(), dynamics::Controls(input))
-              : dynamics::multicopter::PerRotor(input.cwiseMin(multicopter->model().rotor.highest_radps));
+          controls ? allocate(multicopter->model(), dynamics::Controls(input))
+                   : dynamics::multicopter::PerRotor(input.cwiseMin(multicopter->model().rotor.highest_radps));
       multicopter->set_state(state, log.wind_W[sample]);
-    } else if (log.kind == Inputs::controls) {
+    } else if (controls) {
       auto& helicopter = std::get<HelicopterFlight>(flight_);
       auto state = helicopter.state();
       for (size_t i = 0; i < state.servos.size(); ++i) state.servos[i] = {input[static_cast<Eigen::Index>(i)], 0.0};
       helicopter.set_state(state, log.wind_W[sample]);
     }
+  }
+
+  /// Flies with the autopilot, from a hover, at the measured velocity, altitude and heading of a sample until nothing
+  /// changes: the autopilot's reference flight and integrals, the actuators and the rotor are those of this flight.
+  void fly_steadily(const RecordedFlight& log, size_t sample) {
+    constexpr double kSteadyS = 1.0, kLongestS = 15.0;
+    constexpr double kSpeedMps = 0.02, kRateRadps = 0.01, kBelowM = 0.02;  // far below the errors of a replay
+    const RigidBodyState& measured = log.states[sample];
+    const Eigen::Vector3d v_WB_W = measured.q_WB * measured.v_WB_B;
+    const double heading_rad = dynamics::to_roll_pitch_heading(measured.q_WB)[2];
+    std::visit([&](auto& flight) { flight.reset(measured.p_WB, heading_rad, Eigen::Vector3d::Zero()); }, flight_);
+    if (!autopilot_) {
+      // Commands of a log are within the speed limit that its flight had.
+      constexpr double kNoSpeedLimitMps = 20.0;
+      autopilot_.emplace(dynamics::control::AutopilotConfig{.speed_limit_mps = kNoSpeedLimitMps}, vehicle_);
+    }
+    autopilot_->reset(perfect_estimate(body()));
+    const dynamics::control::VelocitySetpoint setpoint{
+        .v_WB_W = v_WB_W.head<2>(), .altitude_m = -measured.p_WB.z(), .heading_rad = heading_rad};
+    double steady_s = 0.0;
+    for (double t_s = 0.0; t_s < kLongestS && steady_s < kSteadyS; t_s += log.period_s) {
+      fly(autopilot_->control(setpoint, perfect_estimate(body()), log.period_s), log, sample, log.period_s);
+      const Eigen::Vector3d v_W = body().q_WB * body().v_WB_B;
+      const bool steady = (v_W.head<2>() - v_WB_W.head<2>()).norm() < kSpeedMps && std::abs(v_W.z()) < kSpeedMps &&
+                          body().w_WB_B.norm() < kRateRadps && std::abs(body().p_WB.z() - measured.p_WB.z()) < kBelowM;
+      steady_s = steady ? steady_s + log.period_s : 0.0;
+    }
+  }
+
+  /// Flies for a time with one command, in the wind of a sample.
+  void fly(const dynamics::ActuatorCommand& command, const RecordedFlight& log, size_t sample, double time_s) {
+    const auto steps = std::max(1.0, std::ceil(time_s / kMaxStepS - 1e-9));
+    const double step_s = time_s / steps;
+    for (int i = 0; i < static_cast<int>(steps); ++i) step(with_feedback(command, log), log.wind_W[sample], step_s);
   }
 
   dynamics::ActuatorCommand command_of(const RecordedFlight& log, size_t sample) {
@@ -116,6 +146,7 @@ class Replay::Flyer {
       case Inputs::pwm:
         return dynamics::multicopter::PerRotor(input);
       case Inputs::controls:
+      case Inputs::control_positions:
         return dynamics::Controls(input);
       case Inputs::setpoints:
         break;

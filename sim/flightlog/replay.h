@@ -16,8 +16,9 @@ namespace hedgehop::sim {
 ///
 /// During the warm-up before a window, the body is set to the measured state at every sample, so that only motors,
 /// servos, rotor and autopilot move by their own laws. From the start of the window on, the model flies alone. An input
-/// acts until the next sample. Motor speeds of a log are those that the rotors have; duty cycles and controls are
-/// commands, which motors and servos follow.
+/// acts until the next sample. Motor speeds and control positions of a log are those that the vehicle has; duty cycles
+/// and controls are commands, which motors and servos follow. Before the warm-up, setpoints start the autopilot in
+/// steady flight at the measured velocity.
 class Replay {
  public:
   /// Throws std::invalid_argument if the vehicle cannot fly.

@@ -40,7 +40,7 @@ class Logs(unittest.TestCase):
         """rows  dictionaries; missing states and motor speeds are 0."""
         file = self.folder / name
         columns = ["t_s"] + STATES + [key for key in rows[0] if key not in STATES and key != "t_s"]
-        if not any(key.startswith(("motor", "pwm", "collective", "cmd")) for key in columns):
+        if not any(key.startswith(("motor", "pwm", "collective", "thrust", "cmd")) for key in columns):
             columns += MOTORS
         with file.open("w", newline="") as out:
             writer = csv.DictWriter(out, columns, restval=0.0)
@@ -158,23 +158,46 @@ class CompareLog(Logs):
                             "".join(f"  - {{name: pwm_{i}, from: m{i}, scale: {1 / 65535!r}}}\n" for i in range(4)))
         self.assertLess(self.compare(self.quadrotor(), log, "--columns", map_file)[2.0]["down"]["model"], 1e-6)
 
+    def test_positions_of_the_controls_act_without_lag(self):
+        """A climb with a thrust that is constant between samples: the velocity is a polygon."""
+        rows, v, z = [], 0.0, -20.0
+        for t in self.times():
+            thrust = 0.7 * G + 1.5 * math.sin(10.0 * t)
+            rows.append({"t_s": t, "down_m": z, "v_down_mps": v, "thrust_n": thrust, "roll_torque_nm": 0.0,
+                         "pitch_torque_nm": 0.0, "yaw_torque_nm": 0.0})
+            a = G - thrust / 0.7
+            z += v / RATE_HZ + 0.5 * a / RATE_HZ ** 2
+            v += a / RATE_HZ
+        log, map_file = self.log(rows), self.folder / "map.yaml"
+        map_file.write_text("inputs: control_positions\n")
+        self.assertLess(self.compare(self.quadrotor(), log, "--columns", map_file)[1.0]["w"]["model"], 1e-6)
+        self.assertGreater(self.compare(self.quadrotor(), log)[1.0]["w"]["model"], 0.01)
+
     def test_a_trimmed_helicopter_keeps_its_trim_under_the_controls_and_under_setpoints(self):
+        for speed in (0.0, 5.0):
+            with self.subTest(speed=speed):
+                self.keeps_its_trim(speed)
+
+    def keeps_its_trim(self, speed):
         vehicle = SOURCE / "configs/vehicles/xcell_60.yaml"
-        status, out, _ = self.call("trim", vehicle, "--json")
+        status, out, _ = self.call("trim", vehicle, "--speed", speed, "--json")
         self.assertEqual(status, 0)
         trim = {key: value for key, value in json.loads(out)[0].items()}
-        state = {"roll_rad": math.radians(trim["phi"]), "pitch_rad": math.radians(trim["theta"]), "down_m": -10.0}
+        state = {"roll_rad": math.radians(trim["phi"]), "pitch_rad": math.radians(trim["theta"]), "v_north_mps": speed,
+                 "down_m": -10.0}
         controls = {"collective_rad": trim["theta_c"], "lateral_rad": trim["delta_lat"],
                     "longitudinal_rad": trim["delta_lon"], "tail_rad": trim["theta_t"]}
-        log = self.log([{"t_s": t, **state, **{key: math.radians(value) for key, value in controls.items()}}
+        log = self.log([{"t_s": t, "north_m": speed * t, **state,
+                         **{key: math.radians(value) for key, value in controls.items()}}
                         for t in self.times(3.0)])
         held = self.compare(vehicle, log)[1.0]
-        commands = {"cmd_v_north_mps": 0.0, "cmd_v_east_mps": 0.0, "cmd_altitude_m": 10.0, "cmd_heading_rad": 0.0}
-        log = self.log([{"t_s": t, **state, **commands} for t in self.times(3.0)], "setpoints.csv")
+        commands = {"cmd_v_north_mps": speed, "cmd_v_east_mps": 0.0, "cmd_altitude_m": 10.0, "cmd_heading_rad": 0.0}
+        log = self.log([{"t_s": t, "north_m": speed * t, **state, **commands} for t in self.times(3.0)], "setpoints.csv")
         flown = self.compare(vehicle, log)[1.0]
         for states in (held, flown):
             self.assertLess(states["velocity"]["model"], 0.02)
             self.assertLess(states["attitude"]["model"], 0.5)  # degrees
+            self.assertLess(states["rates"]["model"], 0.5)  # degrees per second
 
 
 class ExampleFlight(Logs):
