@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -35,17 +36,20 @@ class Quantities {
   std::vector<double> values(const std::string& name) const {
     const LogColumnConfig map = column(name);
     if (!table_.has(map.from)) {
-      throw InputError(map.from == name ? fmt::format("{}: no column '{}'", file_, name)
-                                        : fmt::format("{}: no column '{}' for '{}'", file_, map.from, name));
+      throw InputError(map.from == name
+                           ? fmt::format("{}: no column '{}'{}", file_, name, columns_advice())
+                           : fmt::format("{}: no column '{}' for '{}'{}", file_, map.from, name, columns_advice()));
     }
     std::vector<double> out = table_.numbers(map.from);
-    for (size_t i = 0; i < out.size(); ++i) {
-      out[i] = map.scale * out[i] + map.offset;
-      if (!std::isfinite(out[i])) {
-        throw InputError(fmt::format("{}: column '{}' has no finite number in row {}", file_, map.from, i + 1));
-      }
-    }
-    return out;
+    for (double& value : out) value = map.scale * value + map.offset;
+    const auto finite = [](double value) { return std::isfinite(value); };
+    const auto fault = std::ranges::find_if_not(out, finite);
+    if (fault == out.end()) return out;
+    const auto first = std::ranges::find_if(out, finite);
+    const bool starts_late = fault == out.begin() && first != out.end();
+    throw InputError(
+        fmt::format("{}: column '{}' has no finite number in row {}{}", file_, map.from, fault - out.begin() + 1,
+                    starts_late ? late_start_advice(static_cast<size_t>(first - out.begin())) : std::string()));
   }
   /// Returns three columns as vectors.
   std::vector<Eigen::Vector3d> vectors(const Names& names) const {
@@ -56,6 +60,21 @@ class Quantities {
   }
 
  private:
+  /// Returns the columns of the file and the option that maps them.
+  std::string columns_advice() const {
+    constexpr size_t kMaxNames = 20;
+    const std::vector<std::string>& names = table_.names();
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMaxNames));
+    return fmt::format("; the file has {}{}; --columns MAP.yaml gives their names", fmt::join(names.begin(), end, ", "),
+                       names.size() > kMaxNames ? ", ..." : "");
+  }
+  /// @param row  first with a number, from 0.
+  std::string late_start_advice(size_t row) const {
+    const std::string t = column("t_s").from;
+    if (!table_.has(t)) return "";
+    return fmt::format("; row {} has the first: scripts/convert-log {} --time {} --from {} -o CUT.csv", row + 1, file_,
+                       t, table_.numbers(t)[row]);
+  }
   LogColumnConfig column(const std::string& name) const {
     LogColumnConfig map{.name = name, .from = name};
     for (const LogColumnConfig& c : config_.columns) {
@@ -193,6 +212,12 @@ RecordedFlight read_recorded_flight(const std::filesystem::path& file, const Log
   } else {
     const std::vector<Eigen::Vector3d> rpy = vectors(kAngles);
     for (size_t i = 0; i < n; ++i) {
+      const Eigen::Index larger = std::abs(rpy[i].x()) > std::abs(rpy[i].y()) ? 0 : 1;
+      if (const double angle_rad = rpy[i][larger]; std::abs(angle_rad) > 2.0 * std::numbers::pi) {
+        throw InputError(fmt::format(
+            "{}: {} is {:.4g} rad in row {}; if the column is in degrees, map it with scale: 0.0174533 (--columns)",
+            log.file(), kAngles[static_cast<size_t>(larger)], angle_rad, i + 1));
+      }
       flight.states[i].q_WB = dynamics::from_roll_pitch_heading(rpy[i].x(), rpy[i].y(), rpy[i].z());
     }
   }

@@ -293,6 +293,15 @@ class BadInput(Logs):
         self.assertIn("at least 10", self.refused("compare-log", quadrotor, short))
         back = self.log([{"t_s": 1.0 - t} for t in self.times(1.0)], "back.csv")
         self.assertIn("do not rise", self.refused("compare-log", quadrotor, back))
+        other = self.log([{"t_s": t} for t in self.times(1.0)], "other.csv")
+        other.write_text(other.read_text().replace("t_s", "time", 1))
+        self.assertIn("the file has time, north_m, east_m", self.refused("compare-log", quadrotor, other))
+        degrees = self.log([{"t_s": t, "pitch_rad": 9.0} for t in self.times(1.0)], "degrees.csv")
+        self.assertIn("pitch_rad is 9 rad in row 1; if the column is in degrees", self.refused("compare-log", quadrotor, degrees))
+        late = self.log([{"t_s": t, **{name: "" if t < 0.2 else 0.0 for name in (
+            "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad")}} for t in self.times(1.0)], "late.csv")
+        self.assertIn("no finite number in row 1; row 21 has the first", self.refused("compare-log", quadrotor, late))
+        self.assertIn("--time t_s --from 0.2 -o CUT.csv", self.refused("compare-log", quadrotor, late))
         heli = SOURCE / "configs/vehicles/xcell_60.yaml"
         self.assertIn("collective_rad, lateral_rad", self.refused("compare-log", heli, log))
         fit = ("identify", quadrotor, "--log", log)
