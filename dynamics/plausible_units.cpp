@@ -36,16 +36,22 @@ std::string radius_advice(double tip_mps, double radius_m) {
   return "";
 }
 
-/// @param rpm_key  the key for the speed in rpm.
-void require_tip_speed(const char* key, const char* rpm_key, double speed_radps, double radius_m) {
+/// @param key  of the speed. @param rpm_key  of the speed in rpm. @param radius_key  of the radius.
+void require_tip_speed(const char* key, const char* rpm_key, const char* radius_key, double speed_radps,
+                       double radius_m) {
   const double tip_mps = speed_radps * radius_m, tip_by_rpm_mps = tip_mps * kRadpsPerRpm;
   if (!(tip_mps > kSoundMps)) return;
   const bool likely_rpm = tip_by_rpm_mps > kSlowTipMps && tip_by_rpm_mps < kSoundMps;
-  const std::string advice = likely_rpm ? text("; %.6g rpm is %.3g rad/s; did you mean `%s: %.6g`?", speed_radps,
-                                               speed_radps * kRadpsPerRpm, rpm_key, speed_radps)
-                                        : radius_advice(tip_mps, radius_m);
-  throw fields::InvalidField(
-      key, text("%.6g: tip speed %.4g m/s", speed_radps, tip_mps) + (advice.empty() ? ", faster than sound" : advice));
+  if (likely_rpm) {
+    throw fields::InvalidField(
+        key, text("%.6g: tip speed %.4g m/s; %.6g rpm is %.3g rad/s; did you mean `%s: %.6g`?", speed_radps, tip_mps,
+                  speed_radps, speed_radps * kRadpsPerRpm, rpm_key, speed_radps));
+  }
+  if (const std::string advice = radius_advice(tip_mps, radius_m); !advice.empty()) {
+    throw fields::InvalidField(radius_key,
+                               text("%.6g: tip speed %.4g m/s at %.4g rad/s", radius_m, tip_mps, speed_radps) + advice);
+  }
+  throw fields::InvalidField(key, text("%.6g: tip speed %.4g m/s, faster than sound", speed_radps, tip_mps));
 }
 
 void require_chord(const char* key, double chord_m, double radius_m) {
@@ -59,6 +65,21 @@ void require_chord(const char* key, double chord_m, double radius_m) {
     }
   }
   throw fields::InvalidField(key, text("%.4g m: longer than the rotor's radius of %.4g m", chord_m, radius_m) + advice);
+}
+
+/// Refuses a hub whose distance from the mass center, in m, is far beyond the main rotor's radius.
+void require_hub(const char* key, double place_m, double radius_m) {
+  constexpr double kFar = 3.0, kUsual = 1.5;  // radii
+  if (!(std::abs(place_m) > kFar * radius_m)) return;
+  std::string advice;
+  constexpr std::pair<const char*, double> kUnits[] = {{"cm", 0.01}, {"mm", 0.001}};
+  for (const auto& [unit, meters] : kUnits) {
+    if (advice.empty() && std::abs(place_m) * meters < kUsual * radius_m) {
+      advice = text("; %.4g %s is %.4g m", place_m, unit, place_m * meters);
+    }
+  }
+  throw fields::InvalidField(
+      key, text("%.4g m: beyond %.0f radii of the main rotor, %.4g m", place_m, kFar, radius_m) + advice);
 }
 
 /// @param size_m  radius of a sphere about the mass center that contains the vehicle.
@@ -84,15 +105,20 @@ void require_inertia(const MassConfig& mass, double size_m) {
 }  // namespace
 
 void require_plausible_units(const helicopter::HelicopterConfig& config) {
-  require_tip_speed("main_rotor.speed", "rpm", config.main_rotor.speed_radps, config.main_rotor.radius_m);
+  require_tip_speed("main_rotor.speed", "rpm", "main_rotor.radius", config.main_rotor.speed_radps,
+                    config.main_rotor.radius_m);
   require_chord("main_rotor.chord", config.main_rotor.chord_m, config.main_rotor.radius_m);
   require_chord("tail_rotor.chord", config.tail_rotor.chord_m, config.tail_rotor.radius_m);
+  require_hub("main_rotor.hub_height", config.main_rotor.hub_height_m, config.main_rotor.radius_m);
+  require_hub("tail_rotor.arm", config.tail_rotor.arm_m, config.main_rotor.radius_m);
+  require_hub("tail_rotor.height", config.tail_rotor.height_m, config.main_rotor.radius_m);
   const double reach_m = config.tail_rotor.arm_m + config.tail_rotor.radius_m;
   require_inertia(config.mass, std::max(config.main_rotor.radius_m, reach_m));
 }
 
 void require_plausible_units(const multicopter::MulticopterConfig& config) {
-  require_tip_speed("rotor.highest_speed", "highest_rpm", config.rotor.highest_radps, config.rotor.radius_m);
+  require_tip_speed("rotor.highest_speed", "highest_rpm", "rotor.radius", config.rotor.highest_radps,
+                    config.rotor.radius_m);
   double longest_m = 0.0;
   for (const multicopter::ArmConfig& arm : config.arms) longest_m = std::max(longest_m, arm.length_m);
   require_inertia(config.mass, longest_m + config.rotor.radius_m);
@@ -103,6 +129,14 @@ std::string mass_unit_advice(double mass_kg, double max_lift_n) {
   const double weight_n = mass_kg * kGravityMps2;
   if (!(weight_n > kFarTooHeavy * max_lift_n && weight_n < kGramsPerKg * max_lift_n)) return "";
   return text("; a mass of %.6g g is %.4g kg", mass_kg, mass_kg / kGramsPerKg);
+}
+
+std::string rotor_speed_advice(const helicopter::MainRotor& rotor, double weight_n) {
+  const double tip_mps = rotor.disc.tip_speed_mps / kRadpsPerRpm;
+  const double max_lift_n = rotor.disc.max_thrust_n / (kRadpsPerRpm * kRadpsPerRpm);  // as the square of the speed
+  if (!(tip_mps < kSoundMps && weight_n > rotor.disc.max_thrust_n && weight_n < max_lift_n)) return "";
+  const double rpm = rotor.speed_radps / kRadpsPerRpm;
+  return text("; %.4g rpm is %.3g rad/s; did you mean `speed: %.4g`?", rpm, rotor.speed_radps, rpm);
 }
 
 std::string stop_unit_advice(double lowest_rad, double highest_rad) {

@@ -1,6 +1,7 @@
 #include "dynamics/helicopter/helicopter_flight.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <stdexcept>
@@ -58,6 +59,28 @@ std::string stop_words(size_t servo, double angle_rad, const ServoConfig& config
   return text.data() + stop_unit_advice(config.lowest_rad, config.highest_rad);
 }
 
+/// Returns "it weighs 785 N, its main rotor lifts at most 201 N", or the same of its tail rotor. If neither rotor is
+/// too weak, it returns the figures of both.
+std::string weak_rotor_words(const HelicopterModel& model) {
+  const RotorDisc &main = model.main_rotor.disc, &tail = model.tail_rotor.disc;
+  const double weight_n = model.mass.mass_kg * kGravityMps2;
+  const double induced_mps = std::sqrt(weight_n / (2.0 * main.density_kgpm3 * main.area_m2 * main.efficiency));
+  const double power_w = shaft_power_w(main, {.thrust_n = weight_n, .induced_mps = induced_mps}, 0.0, 0.0);
+  const double torque_nm = power_w / model.main_rotor.speed_radps;
+  const double tail_n = torque_nm / (model.tail_rotor.arm_m * model.tail_rotor.thrust_fraction);
+  std::array<char, 120> lift{}, push{};
+  std::snprintf(lift.data(), lift.size(), "it weighs %.4g N, its main rotor lifts at most %.4g N", weight_n,
+                main.max_thrust_n);
+  std::snprintf(push.data(), push.size(), "its tail rotor needs a thrust of %.3g N, its maximum is %.3g N", tail_n,
+                tail.max_thrust_n);
+  if (weight_n > main.max_thrust_n) {
+    const std::string advice = rotor_speed_advice(model.main_rotor, weight_n);
+    return lift.data() + (advice.empty() ? mass_unit_advice(model.mass.mass_kg, main.max_thrust_n) : advice);
+  }
+  if (tail_n > tail.max_thrust_n) return push.data();
+  return std::string(lift.data()) + "; " + push.data();
+}
+
 }  // namespace
 
 HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
@@ -70,12 +93,8 @@ HelicopterFlight::HelicopterFlight(const HelicopterConfig& config)
 
 void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
   const std::optional<Trim> hover = trim(model_, -wind_W, heading_rad);
-  if (!hover) {
-    const double weight_n = model_.mass.mass_kg * kGravityMps2, max_lift_n = model_.main_rotor.disc.max_thrust_n;
-    throw std::invalid_argument("the helicopter has no steady hover in this wind: it weighs " +
-                                std::to_string(weight_n) + " N, its main rotor lifts at most " +
-                                std::to_string(max_lift_n) + " N" + mass_unit_advice(model_.mass.mass_kg, max_lift_n));
-  }
+  const std::string where = wind_W.isZero() ? ": " : " in this wind: ";
+  if (!hover) throw std::invalid_argument("the helicopter has no steady hover" + where + weak_rotor_words(model_));
   engine_on_ = true;
   HelicopterFlightState state{hover->state, {}, {model_.main_rotor.speed_radps, 0.0}};
   state.airframe.body.p_WB = p_WB;
@@ -83,15 +102,17 @@ void HelicopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, co
   const std::array<double, 4> blades = to_array(hover->blades);
   for (size_t i = 0; i < blades.size(); ++i) {
     if (blades[i] < servos_[i].lowest_rad || blades[i] > servos_[i].highest_rad) {
-      throw std::invalid_argument("the helicopter cannot hover in this wind: " + stop_words(i, blades[i], servos_[i]));
+      throw std::invalid_argument("the helicopter cannot hover" + where + stop_words(i, blades[i], servos_[i]));
     }
     state.servos[i] = {blades[i], 0.0};
   }
   if (engine_) {
     const double power_w = hover->loads.main_rotor.power_w + hover->loads.tail_rotor.power_w;
     if (power_w > engine_->max_power_w) {
-      throw std::invalid_argument("the helicopter cannot hover in this wind: it needs " + std::to_string(power_w) +
-                                  " W, its engine gives " + std::to_string(engine_->max_power_w) + " W");
+      std::array<char, 80> text{};
+      std::snprintf(text.data(), text.size(), "it needs %.4g W, its engine gives %.4g W", power_w,
+                    engine_->max_power_w);
+      throw std::invalid_argument("the helicopter cannot hover" + where + text.data());
     }
     state.rotor.integral_throttle = power_w / engine_->max_power_w;
   }

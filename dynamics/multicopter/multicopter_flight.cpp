@@ -154,7 +154,10 @@ MulticopterFlight::MulticopterFlight(const MulticopterConfig& config) : model_(m
 
 void MulticopterFlight::reset(const Eigen::Vector3d& p_WB, double heading_rad, const Eigen::Vector3d& wind_W) {
   const std::optional<MulticopterTrim> hover = trim(model_, -wind_W, heading_rad);
-  if (!hover) throw std::invalid_argument("the multicopter has no steady hover in this wind");
+  if (!hover) {
+    throw std::invalid_argument(std::string("the multicopter has no steady hover") +
+                                (wind_W.isZero() ? "" : " in this wind"));
+  }
   MulticopterFlightState state = hover->state;
   state.body.p_WB = p_WB;
   state.body.v_WB_B.setZero();

@@ -9,8 +9,10 @@
 namespace hedgehop::dynamics {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 TEST(Quantity, HasAMarginToTheNearerLimit) {
   const Quantity angle{"theta_c", "deg", 10.0, "", "", -12.0, 18.0};
@@ -67,8 +69,15 @@ TEST(PlausibleUnits, RecognizeMillimetersGramsAndInertiasOfOtherUnits) {
     change(config);
     return refusal(config);
   };
-  EXPECT_THAT(changed([](auto& c) { c.main_rotor.radius_m = 775.0; }), HasSubstr("a radius of 775 mm is 0.775 m"));
+  EXPECT_THAT(changed([](auto& c) { c.main_rotor.radius_m = 775.0; }),
+              AllOf(StartsWith("main_rotor.radius: 775:"), HasSubstr("a radius of 775 mm is 0.775 m")));
   EXPECT_THAT(changed([](auto& c) { c.main_rotor.chord_m = 58.0; }), HasSubstr("a chord of 58 mm is 0.058 m"));
+  EXPECT_THAT(changed([](auto& c) { c.tail_rotor.arm_m = 910.0; }),
+              AllOf(StartsWith("tail_rotor.arm:"), HasSubstr("910 mm is 0.91 m")));
+  EXPECT_THAT(changed([](auto& c) { c.main_rotor.hub_height_m = 23.5; }),
+              AllOf(StartsWith("main_rotor.hub_height:"), HasSubstr("23.5 cm is 0.235 m")));
+  EXPECT_THAT(changed([](auto& c) { c.main_rotor.speed_radps = 167.0 * 0.10471975511965977; }),  // rad/s taken for rpm
+              HasSubstr("did you mean `speed: 167`?"));
   EXPECT_THAT(changed([](auto& c) { c.mass.mass_kg = 8200.0; }), HasSubstr("a mass of 8200 g is 8.2 kg"));
   EXPECT_THAT(changed([](auto& c) { c.mass.inertia_kgm2 *= 1e4; }), HasSubstr("3400 kg cm2 is 0.34 kg m2"));
   EXPECT_THAT(changed([](auto& c) {

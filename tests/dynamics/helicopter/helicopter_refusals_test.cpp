@@ -55,7 +55,9 @@ TEST(HelicopterRefusals, NameTheFaultOfAServo) {
 
 TEST(HelicopterRefusals, NameTheReasonWithoutAHover) {
   using testing::HasSubstr;
-  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = 80.0; }), HasSubstr("weighs 784.8"));
+  EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = 80.0; }), HasSubstr("no steady hover: it weighs 784.8 N, its main"));
+  EXPECT_THAT(refusal([](C& c) { c.tail_rotor.radius_m = 0.06; }),
+              HasSubstr("no steady hover: its tail rotor needs a thrust of"));
   EXPECT_THAT(refusal([](C& c) { c.servos.tail.highest_rad = 0.1; }), HasSubstr("the tail collective must be 11."));
   EXPECT_THAT(refusal([](C& c) { c.rotor_speed = GovernedEngineConfig{.max_power_w = 500.0}; }),
               HasSubstr("its engine gives 500"));
