@@ -99,7 +99,8 @@ void require_scenario(const Node& root, ErrorList& errors) {
       {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
       {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
       {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
-  if (root.incomplete || root.find("scene") || root.find("vehicle") || root.find("avoidance")) return;
+  if (root.incomplete) errors.throw_if_any();  // the missing file may have the keys of its kind
+  if (root.find("scene") || root.find("vehicle") || root.find("avoidance")) return;
   for (const auto& [key, description] : kKinds) {
     if (!root.find(key)) continue;
     errors.add(root.position, fmt::format("is not a scenario but {}", description));

@@ -42,6 +42,9 @@ TEST_F(BadFile, RejectsPipesDevicesFoldersAndHugeFilesAsScenarios) {
   refused("huge.yaml", "huge.yaml: is larger than 64 MB");
   folder.write("uses.yaml", "use: pipe\n");
   refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
+  folder.write("vehicle.yaml", "use: gone.yaml\nmass: {mass: 1}\nmain_rotor: {radius: 1}\n");
+  const CommandEnd vehicle = folder.hedgehop("validate vehicle.yaml");
+  EXPECT_EQ(vehicle.err, "vehicle.yaml:1:6: there is no such file: 'gone.yaml'\n");
 }
 
 TEST_F(BadFile, APipeDoesNotBlockAnyCommand) {
