@@ -105,8 +105,9 @@ class Replay::Flyer {
     }
   }
 
-  /// Flies with the autopilot, from a hover, at the measured velocity, altitude and heading of a sample until nothing
-  /// changes: the autopilot's reference flight and integrals, the actuators and the rotor are those of this flight.
+  /// Flies with the autopilot, from a hover, at the measured velocity, altitude and heading of a sample until the
+  /// flight is steady: the autopilot's reference flight and integrals, the actuators and the rotor are those of this
+  /// flight.
   void fly_steadily(const RecordedFlight& log, size_t sample) {
     constexpr double kSteadyS = 1.0, kLongestS = 15.0;
     constexpr double kSpeedMps = 0.02, kRateRadps = 0.01, kBelowM = 0.02;  // far below the errors of a replay
