@@ -4,6 +4,7 @@
 
 #include "sim/cli/campaign_options.h"
 #include "sim/cli/log_commands.h"
+#include "sim/cli/plot_file.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -49,6 +50,7 @@ void declare_compare_log(CLI::App& app, std::function<int()>& chosen, CompareLog
   CLI::Option* const as_json = command->add_flag("--json", options.json, "print JSON instead of a table");
   command->add_flag("--csv", options.csv, "print comma-separated values")->excludes(as_json);
   command->add_option("--plot", options.plot, "also write a figure of the errors against the horizon")
+      ->check(written_as(".svg"))
       ->type_name("FILE.svg");
   command->callback([&] { chosen = [&options] { return compare_log(options); }; });
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sim/cli/campaign_options.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_commands.h"
 
 namespace hedgehop::sim::cli {
@@ -40,6 +41,7 @@ void declare_trim(CLI::App& app, std::function<int()>& chosen, VehicleOptions& v
       ->type_name("RANGE");
   add_formats(*command, vehicles.trim.json, vehicles.trim.csv);
   command->add_option("--plot", vehicles.trim.plot, "also write a page with plots of the trim against airspeed")
+      ->check(written_as(".html"))
       ->type_name("FILE.html");
   command->callback([&] {
     chosen = [&vehicles] {
@@ -79,7 +81,9 @@ void declare_step(CLI::App& app, std::function<int()>& chosen, StepOptions& opti
       ->check(CLI::Range(1.0, 600.0))
       ->type_name("S");
   add_formats(*command, options.json, options.csv);
-  command->add_option("--plot", options.plot, "also write a page with plots over time")->type_name("FILE.html");
+  command->add_option("--plot", options.plot, "also write a page with plots over time")
+      ->check(written_as(".html"))
+      ->type_name("FILE.html");
   command->callback([&] { chosen = [&options] { return step(options); }; });
 }
 
@@ -109,6 +113,7 @@ void declare_identify(CLI::App& app, std::function<int()>& chosen, VehicleOption
   add_airspeed(*command, options.speed_mps);
   add_formats(*command, options.json, options.csv);
   command->add_option("--plot", options.plot, "also write a page with gain, phase and coherence")
+      ->check(written_as(".html"))
       ->type_name("FILE.html");
   command->callback([&] {
     chosen = [&vehicles] {

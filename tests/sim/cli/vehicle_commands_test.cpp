@@ -42,6 +42,12 @@ TEST(Trim, MarksRowsBeyondTheControlStopsAndPrintsMargins) {
   EXPECT_LT(rows[2]["margin_percent"]["theta_c"].get<double>(), 0.0);
 }
 
+TEST(Trim, RefusesAFigureAsThePage) {
+  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + testing::TempDir() + "/trim.svg");
+  EXPECT_EQ(answer.status, kBadInput);
+  EXPECT_THAT(answer.text, HasSubstr("trim.svg' would be written as .html"));
+}
+
 TEST(Linearize, PrintsNamesOfModesUnitsAndEigenvectors) {
   const Answer answer = ask("linearize " + kVehicles + "xcell_60.yaml --speed 12");
   EXPECT_EQ(answer.status, 0);

@@ -1,0 +1,52 @@
+"""`hedgehop compare-log` and `identify --log` refuse bad logs, column maps and options in one line.
+
+usage: bad_logs_test.py PROGRAM SOURCE
+"""
+
+import sys
+import unittest
+
+from synthetic_logs_test import SOURCE, Logs
+
+
+class BadInput(Logs):
+    def refused(self, *arguments):
+        status, _, errors = self.call(*arguments)
+        self.assertEqual(status, 2, errors)
+        self.assertEqual(len(errors.strip().splitlines()), 1, errors)
+        return errors
+
+    def test_each_fault_is_one_line(self):
+        quadrotor, log = self.quadrotor(), self.fall(0.7, 0.05)
+        map_file = self.folder / "map.yaml"
+        map_file.write_text("columns:\n  - {name: p_radp, from: p}\n")
+        self.assertIn("did you mean 'p_radps'", self.refused("compare-log", quadrotor, log, "--columns", map_file))
+        map_file.write_text("columns:\n  - {name: p_radps, from: gyro}\n")
+        self.assertIn("no column 'gyro' for 'p_radps'", self.refused("compare-log", quadrotor, log, "--columns", map_file))
+        short = self.log([{"t_s": t} for t in self.times(0.05)], "short.csv")
+        self.assertIn("at least 10", self.refused("compare-log", quadrotor, short))
+        back = self.log([{"t_s": 1.0 - t} for t in self.times(1.0)], "back.csv")
+        self.assertIn("do not rise", self.refused("compare-log", quadrotor, back))
+        other = self.log([{"t_s": t} for t in self.times(1.0)], "other.csv")
+        other.write_text(other.read_text().replace("t_s", "time", 1))
+        self.assertIn("the file has time, north_m, east_m", self.refused("compare-log", quadrotor, other))
+        degrees = self.log([{"t_s": t, "pitch_rad": 9.0} for t in self.times(1.0)], "degrees.csv")
+        self.assertIn("pitch_rad is 9 rad in row 1; if the column is in degrees", self.refused("compare-log", quadrotor, degrees))
+        late = self.log([{"t_s": t, **{name: "" if t < 0.2 else 0.0 for name in (
+            "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad")}} for t in self.times(1.0)], "late.csv")
+        self.assertIn("no finite number in row 1; row 21 has the first", self.refused("compare-log", quadrotor, late))
+        self.assertIn("--time t_s --from 0.2 -o CUT.csv", self.refused("compare-log", quadrotor, late))
+        plot = self.refused("compare-log", quadrotor, log, "--plot", self.folder / "errors.html")
+        self.assertIn("would be written as .svg", plot)
+        heli = SOURCE / "configs/vehicles/xcell_60.yaml"
+        self.assertIn("collective_rad, lateral_rad", self.refused("compare-log", heli, log))
+        fit = ("identify", quadrotor, "--log", log)
+        self.assertIn("--fit is missing", self.refused(*fit))
+        self.assertIn("did you mean 'rotor.drag'", self.refused(*fit, "--fit", "rotor.drg=0:1"))
+        self.assertIn("expected NAME=LOW:HIGH", self.refused(*fit, "--fit", "rotor.drag=1:0"))
+        self.assertIn("must be >= 0", self.refused(*fit, "--fit", "rotor.drag=-1:1"))
+        self.assertIn("--input with a control, or --log", self.refused("identify", quadrotor))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
