@@ -19,10 +19,9 @@ namespace fs = std::filesystem;
 
 /// Keys that exclude each other because each chooses the module.
 constexpr std::array<std::string_view, 3> kModuleKeys = {kModuleSelector, kPythonKey, kPluginKey};
-
-bool is_selector(std::string_view key) {
-  return std::find(std::begin(kSelectors), std::end(kSelectors), key) != std::end(kSelectors);
-}
+/// Keys of a library's module, which may be set before `plugin`.
+constexpr std::array<std::string_view, 4> kLibraryKeys = {kModuleSelector, "parameters", "limit", "in_process"};
+bool is_override(const Node& value) { return value.position.file.starts_with("--set "); }
 
 /// Whether a key with this value chooses another alternative than the map does.
 bool chooses_another(const Node& map, std::string_view key, const Node& value) {
@@ -30,8 +29,10 @@ bool chooses_another(const Node& map, std::string_view key, const Node& value) {
   const bool foreign = key == kPythonKey || key == kPluginKey;
   if (foreign && !map.find(key)) return std::ranges::any_of(kModuleKeys, is_module);
   if (key == kModuleSelector && map.find(kPythonKey)) return true;
-  const Node* old = map.find(key);
-  return is_selector(key) && old && old->kind == Node::Kind::scalar && old->text != value.text;
+  const Node *old = map.find(key), *library = map.find(kPluginKey);
+  if (key == kModuleSelector && library && is_override(*library)) return false;  // the library's module
+  if (!old || std::ranges::find(kSelectors, key) == std::end(kSelectors)) return false;
+  return old->kind == Node::Kind::scalar && old->text != value.text;
 }
 
 /// Whether `over` chooses another alternative than `base`.
@@ -224,9 +225,11 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   std::string path;
   for (size_t i = 0; i < keys.size(); ++i) {
     // Another choice discards the keys of the previous choice.
-    // `plugin` keeps the module's name, which may have been set before.
-    if (i + 1 == keys.size() && keys[i] != kPluginKey && chooses_another(*node, keys[i], last.value)) {
-      node->entries.clear();
+    if (i + 1 == keys.size() && chooses_another(*node, keys[i], last.value)) {
+      std::erase_if(node->entries, [&](const Entry& entry) {
+        const bool is_library_key = std::ranges::find(kLibraryKeys, entry.key) != kLibraryKeys.end();
+        return keys[i] != kPluginKey || !(is_library_key || is_override(entry.value));
+      });
     }
     node = step_into(*node, keys[i], path, position, errors);
     if (!node) return;
@@ -244,8 +247,7 @@ void override_with(Node& base, const Node& over) {
   }
   base.position = over.position;
   for (const Entry& entry : over.entries) {
-    const auto same =
-        std::find_if(base.entries.begin(), base.entries.end(), [&](const Entry& e) { return e.key == entry.key; });
+    const auto same = std::ranges::find(base.entries, entry.key, &Entry::key);
     if (same == base.entries.end()) {
       base.entries.push_back(entry);
     } else {

@@ -153,6 +153,30 @@ TEST_F(Override, AnotherChoiceDropsTheOldKeys) {
   EXPECT_EQ(std::get<sample::Square>(load({"shape.type=square"}).shape).side_m, 3.0);
 }
 
+TEST_F(Override, ALibraryKeepsItsOwnKeysInAnyOrder) {
+  const auto over = [](const std::string& base, const std::vector<std::string>& overrides) {
+    ErrorList faults("scenario");
+    std::set<std::filesystem::path> read;
+    Node node = parse_yaml("avoidance: " + base, "base.yaml", faults);
+    apply_overrides(node, overrides, "base.yaml", faults, read);
+    EXPECT_TRUE(faults.empty());
+    std::vector<std::string> keys;
+    for (const Entry& entry : node.find("avoidance")->entries) keys.push_back(entry.key + "=" + entry.value.text);
+    return keys;
+  };
+  const std::string zig_zag = "{module: zig_zag, speed: 2}", library = "{plugin: l.so, module: keep, limit: 1}";
+  EXPECT_THAT(over(zig_zag, {"avoidance.plugin=l.so", "avoidance.module=keep"}),
+              ElementsAre("module=keep", "plugin=l.so"));
+  EXPECT_THAT(over(zig_zag, {"avoidance.module=keep", "avoidance.plugin=l.so"}),
+              ElementsAre("module=keep", "plugin=l.so"));
+  EXPECT_THAT(over(zig_zag, {"avoidance.plugin=l.so"}), ElementsAre("module=zig_zag", "plugin=l.so"));
+  EXPECT_THAT(over("{module: keep, limit: 1}", {"avoidance.sped=3", "avoidance.plugin=l.so"}),
+              ElementsAre("module=keep", "limit=1", "sped=3", "plugin=l.so"));
+  EXPECT_THAT(over(library, {"avoidance.plugin=m.so", "avoidance.module=hold"}),
+              ElementsAre("plugin=m.so", "module=hold", "limit=1"));
+  EXPECT_THAT(over(library, {"avoidance.module=zig_zag"}), ElementsAre("module=zig_zag"));
+}
+
 TEST_F(Override, UsesAFileInTheFolderOfTheScenario) {
   Folder::write("dir/rotor.yaml", "radius: 9\n");
   EXPECT_EQ(load({"rotor.use=rotor.yaml"}).rotor.radius_m, 9.0);
