@@ -162,7 +162,8 @@ void bind_setup(py::module_& native) {
       .def_property_readonly(
           "height_px", [](const MountedCamera& c) { return c.model.height_px; }, "rows of an image")
       .def_property_readonly(
-          "lens", [](const MountedCamera& c) { return c.model.lens_name(); }, "type of the lens, as in the rig")
+          "lens", [](const MountedCamera& c) { return c.model.lens_name(); },
+          "name of the lens, such as 'distorted pinhole'")
       .def_property_readonly(
           "pinhole",
           [](const MountedCamera& c) {
