@@ -20,7 +20,8 @@ namespace {
 using Model = CameraConfig::Model;
 
 constexpr std::string_view kFormats =
-    "Kalibr's camera chain, sensor.yaml of EuRoC, camera_info of ROS, OpenCV's FileStorage, or OCamCalib";
+    "Kalibr's camera chain, sensor.yaml of EuRoC, camera_info of ROS, OpenCV's FileStorage with camera_matrix (or "
+    "cameraMatrix, K) and distortion_coefficients (or distCoeffs, dist_coeffs, distortion, D), or OCamCalib";
 
 [[noreturn]] void refuse(const Node& node, const std::string& message) {
   throw InputError(fmt::format("{}: {}", node.position.text(), message));

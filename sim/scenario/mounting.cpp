@@ -57,12 +57,25 @@ bool has_mounting(const CameraConfig& c) {
          c.roll_rad != 0.0 || !c.quaternion.empty();
 }
 
+/// Whether a camera states its size. The default counts if the optical axis of the calibration is near its middle.
+bool states_size(const CameraConfig& camera, const CameraConfig& calibrated) {
+  constexpr double kMaxShift = 0.1;  // of the axis, share of the size
+  const CameraConfig fresh;
+  const auto is_stated = [](int size_px, int default_px, double center_px) {
+    return size_px != default_px || std::abs(center_px - 0.5 * size_px) <= kMaxShift * size_px;
+  };
+  return is_stated(camera.width_px, fresh.width_px, calibrated.center_u_px.value_or(0.0)) &&
+         is_stated(camera.height_px, fresh.height_px, calibrated.center_v_px.value_or(0.0));
+}
+
 /// Gives the lens, the size and, unless the camera states its own, the pose of a calibration to a camera.
 void apply(const CameraConfig& calibrated, CameraConfig& camera) {
   const CameraConfig fresh;
   require(!camera.focal_x_px && !camera.focal_y_px && !camera.center_u_px && !camera.center_v_px &&
               camera.distortion.empty() && !camera.xi && !camera.alpha && camera.fov_rad == fresh.fov_rad,
           "calibration", "defines the lens; remove the other keys of the lens");
+  require(calibrated.width_px > 0 || states_size(camera, calibrated), "calibration",
+          "the file has no image size; state width and height");
   require(camera.model_kind == fresh.model_kind || camera.model_kind == calibrated.model_kind, "model",
           "differs from that of the calibration");
   if (calibrated.width_px > 0) {
@@ -116,7 +129,8 @@ const CalibratedCamera& entry_for(const CameraConfig& camera, const std::vector<
                              fmt::format("the file has no camera '{}'; valid: {}", wanted, fmt::join(names, ", ")));
 }
 
-void apply_own_calibration(CameraConfig& camera, std::vector<std::filesystem::path>& read) {
+/// @param is_pair  whether the camera stands for both of a stereo pair.
+void apply_own_calibration(CameraConfig& camera, bool is_pair, std::vector<std::filesystem::path>& read) {
   if (camera.calibration.empty()) return;
   const std::string text = text_of(camera.calibration);
   if (camera.model_kind == CameraConfig::Model::ocam || is_ocam_calibration(text)) {
@@ -132,6 +146,10 @@ void apply_own_calibration(CameraConfig& camera, std::vector<std::filesystem::pa
     return;
   }
   const std::vector<CalibratedCamera> entries = read_calibration(text, camera.calibration);
+  require(!is_pair || entries.size() == 1 || !camera.calibration_camera.empty(), "calibration",
+          fmt::format("the file has {} cameras, but those of a stereo pair are equal; state it as 'rig.calibration' "
+                      "instead of 'stereo', or name the one for both by 'calibration_camera' and state 'baseline'",
+                      entries.size()));
   CameraConfig calibrated = entry_for(camera, entries).config;
   calibrated.camera_from_previous.clear();  // the camera before is not part of this rig
   apply(calibrated, camera);
@@ -139,8 +157,10 @@ void apply_own_calibration(CameraConfig& camera, std::vector<std::filesystem::pa
   camera.calibration_camera.clear();
 }
 
-void apply_rig_calibration(RigConfig& rig) {
+/// Applies the rig's file; a pose that refers to the camera before becomes one in B. @param p_BI_m  as mount_rig()'s.
+void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
   if (rig.calibration.empty()) return;
+  std::optional<size_t> before;  // the camera of the entry before
   for (const CalibratedCamera& entry : read_calibration(text_of(rig.calibration), rig.calibration)) {
     const auto is_this = [&](const CameraConfig& c) {
       return c.role == entry.role || (c.role == entry.name && !entry.name.empty());
@@ -151,18 +171,14 @@ void apply_rig_calibration(RigConfig& rig) {
       if (entry.rate_hz) camera->rate_hz = *entry.rate_hz;
     }
     apply(entry.config, *camera);
+    camera->p_BI_m = p_BI_m;
+    const std::vector<double> X_CCp = std::exchange(camera->camera_from_previous, {});
+    if (before && !X_CCp.empty()) {
+      camera->body_from_camera = row_by_row(rig.cameras[*before].X_BC() * pose(X_CCp, "calibration").inverse());
+    }
+    before = static_cast<size_t>(camera - rig.cameras.begin());
   }
   rig.read_calibrations.push_back(std::exchange(rig.calibration, {}));
-}
-
-/// Replaces the poses that refer to the camera before.
-void resolve_chain(RigConfig& rig) {
-  for (size_t i = 0; i < rig.cameras.size(); ++i) {
-    CameraConfig& camera = rig.cameras[i];
-    if (camera.camera_from_previous.empty()) continue;
-    const Eigen::Isometry3d X_CCp = pose(std::exchange(camera.camera_from_previous, {}), "calibration");
-    if (i > 0) camera.body_from_camera = row_by_row(rig.cameras[i - 1].X_BC() * X_CCp.inverse());
-  }
 }
 
 }  // namespace
@@ -205,21 +221,21 @@ void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
     }
   };
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
-    at(fmt::format("cameras.{}", i), [&] { apply_own_calibration(rig.cameras[i], rig.read_calibrations); });
+    at(fmt::format("cameras.{}", i),
+       [&] { apply_own_calibration(rig.cameras[i], /*is_pair=*/false, rig.read_calibrations); });
   }
   for (size_t i = 0; i < rig.stereo.size(); ++i) {
     at(fmt::format("stereo.{}", i), [&] {
       CameraConfig& camera = rig.stereo[i].camera;
       if (camera.role.empty()) camera.role = "left";
-      apply_own_calibration(camera, rig.read_calibrations);
+      apply_own_calibration(camera, /*is_pair=*/true, rig.read_calibrations);
       for (std::vector<double>* matrix : {&camera.body_from_camera, &camera.imu_from_camera, &camera.camera_from_imu}) {
         matrix->clear();
       }
     });
   }
-  apply_rig_calibration(rig);
+  apply_rig_calibration(rig, p_BI_m);
   for (CameraConfig& camera : rig.cameras) camera.p_BI_m = p_BI_m;
-  resolve_chain(rig);
   for (const StereoConfig& pair : rig.stereo) {
     const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * pair.camera.X_BC().linear().col(0);
     for (const double side : {-1.0, 1.0}) {

@@ -29,6 +29,8 @@ namespace {
 
 constexpr std::string_view kRenderer = "its name is now 'renderer'";
 constexpr std::string_view kScheme = "it was removed; `scheme: simple` is now `module: zig_zag`";
+constexpr std::string_view kFocal = "the focal lengths are 'focal_x' and 'focal_y'";
+constexpr std::string_view kCenter = "the optical axis is at 'center_u' and 'center_v'";
 constexpr FormerKey kFormerKeys[] = {
     {.path = "drawing", .key = "gl", .advice = kRenderer},
     {.path = "drawing", .key = "context", .advice = kRenderer},
@@ -43,6 +45,14 @@ constexpr FormerKey kFormerKeys[] = {
     {.path = "avoidance", .key = "cols", .beside = "sections", .advice = "its name is now 'sections'"},
     {.path = "avoidance", .key = "passed", .beside = "passed_radius", .advice = "its name is now 'passed_radius'"},
     {.path = "avoidance.map", .key = "young_misses", .advice = "its name is now 'unconfirmed_misses'"},
+    {.path = "rig.cameras.*", .key = "fx", .advice = kFocal},
+    {.path = "rig.cameras.*", .key = "fy", .advice = kFocal},
+    {.path = "rig.cameras.*", .key = "cx", .advice = kCenter},
+    {.path = "rig.cameras.*", .key = "cy", .advice = kCenter},
+    {.path = "rig.stereo.*", .key = "fx", .advice = kFocal},
+    {.path = "rig.stereo.*", .key = "fy", .advice = kFocal},
+    {.path = "rig.stereo.*", .key = "cx", .advice = kCenter},
+    {.path = "rig.stereo.*", .key = "cy", .advice = kCenter},
     {.key = "chance",
      .advice = "it was removed with `hedgehop estimate`; to bound a rate, use `hedgehop batch --until`"},
 };

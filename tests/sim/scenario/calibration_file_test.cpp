@@ -147,6 +147,7 @@ TEST(CalibrationFile, RefusesModelsThatAreNotImplementedByTheirNames) {
 
 TEST(CalibrationFile, RefusesOtherFilesWithLineAndValidValues) {
   EXPECT_THAT(fault_of_calibration("a: 1"), HasSubstr("valid: Kalibr's camera chain"));
+  EXPECT_THAT(fault_of_calibration("M1: [1, 0, 0, 0, 1, 0, 0, 0, 1]"), HasSubstr("camera_matrix (or cameraMatrix, K)"));
   EXPECT_THAT(fault_of_calibration(""), HasSubstr("calibration"));
   EXPECT_THAT(fault_of_calibration("<opencv_storage><a>"), HasSubstr("cannot be read as XML"));
   EXPECT_THAT(fault_of_calibration(opencv("1, 2, 3")), HasSubstr("calibration:11:4: a pinhole has"));
@@ -174,8 +175,7 @@ std::string two_cameras(const std::string& first) {
          ", yaw: 12.3, pitch: -31.7, roll: 77.7, forward: 0.1234567, right: -0.7654321, down: 0.0333333}, {role: "
          "right, "
          "width: 640, height: 480, fov: 71.3, distortion: [-0.21, 0.031, 1e-3, -2e-4], quaternion: [0.5, 0.5, 0.5, "
-         "0.5], "
-         "forward: 0.3333333, down: 0.7777777}]}";
+         "0.5], forward: 0.3333333, down: 0.7777777}]}";
 }
 
 TEST(CalibrationFile, HedgehopReadsItsOwnFilesToTheLastDigit) {
@@ -226,12 +226,66 @@ TEST(CalibrationFile, CamerasOfARigTakeTheEntryOfTheirRole) {
   EXPECT_EQ(rig.cameras[1].width_px, 400);
 }
 
+/// A chain of two cameras 0.12 m apart, cam1 to the right of cam0.
+std::string chain_of_two(const std::string& first, const std::string& second) {
+  const auto camera = [](int number, const std::string& role, const std::string& pose) {
+    return fmt::format(
+        "cam{}: {{camera_model: pinhole, intrinsics: [46{}, 461, 320, 240], distortion_model: none, "
+        "distortion_coeffs: [], resolution: [640, 480], rostopic: /{}/image_raw{}}}\n",
+        number, number, role, pose);
+  };
+  return camera(0, first, "") +
+         camera(1, second, ", T_cn_cnm1: [[1, 0, 0, -0.12], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]");
+}
+
+TEST(CalibrationFile, TheRelativePoseOfAChainIsThatOfTheEntryBefore) {
+  Folder folder;
+  Folder::write("chain.yaml", chain_of_two("left", "right"));
+  for (const std::string rig : {"{calibration: chain.yaml}",
+                                "{calibration: chain.yaml, cameras: [{role: right, rate: 30}, {role: down, down: 0.3, "
+                                "pitch: -90}, {role: left, rate: 30}]}"}) {
+    const RigConfig mounted = flown(rig).rig;
+    const CameraConfig &left = *mounted.find("left"), &right = *mounted.find("right");
+    EXPECT_EQ(left.focal_x_px, 460.0);
+    EXPECT_EQ(right.focal_x_px, 461.0);
+    const Eigen::Vector3d p_CCr = (left.X_BC().inverse() * right.X_BC()).translation();
+    EXPECT_NEAR((p_CCr - Eigen::Vector3d(0.12, 0, 0)).norm(), 0.0, 1e-15) << rig << ": " << p_CCr.transpose();
+  }
+}
+
+TEST(CalibrationFile, AStereoPairRefusesAFileOfTwoCamerasUnlessOneIsNamed) {
+  Folder folder;
+  for (const std::string& text : {chain_of_two("left", "right"), chain_of_two("right", "left")}) {
+    Folder::write("chain.yaml", text);
+    EXPECT_THAT(faults_of([] { flown("{stereo: [{calibration: chain.yaml}]}"); }),
+                ElementsAre(HasSubstr("'rig.stereo.0.calibration': the file has 2 cameras, but those of a stereo pair "
+                                      "are equal; state it as 'rig.calibration'")));
+  }
+  const RigConfig rig = flown("{stereo: [{calibration: chain.yaml, calibration_camera: cam1, baseline: 0.12}]}").rig;
+  for (const CameraConfig& camera : rig.cameras) EXPECT_EQ(camera.focal_x_px, 461.0);
+}
+
+TEST(CalibrationFile, AFileWithoutImageSizeNeedsOneFromTheCamera) {
+  Folder folder;
+  const auto faults = [](double center_u, double center_v, const std::string& keys) {
+    Folder::write("nosize.yaml", fmt::format("camera_matrix: [458, 0, {}, 0, 457, {}, 0, 0, 1]\n", center_u, center_v));
+    return faults_of([&] { flown("{cameras: [{role: front, calibration: nosize.yaml" + keys + "}]}"); });
+  };
+  const auto refused = ElementsAre(HasSubstr("'rig.cameras.0.calibration': the file has no image size; state width"));
+  EXPECT_THAT(faults(367, 248, ""), refused);
+  EXPECT_THAT(faults(367, 248, ", width: 752"), refused);
+  EXPECT_THAT(faults(367, 248, ", width: 752, height: 480"), ElementsAre());
+  EXPECT_THAT(faults(203, 196, ", width: 400, height: 400"), ElementsAre());
+}
+
 TEST(CalibrationFile, KeysThatContradictItAreRefused) {
   Folder folder;
   Folder::write("chain.yaml", kalibr("pinhole", "460, 461, 320, 240", "radtan", "0, 0, 0, 0"));
   const auto faults = [](const std::string& keys) {
     return faults_of([&] { flown("{cameras: [{role: front, calibration: chain.yaml, " + keys + "}]}"); });
   };
+  EXPECT_THAT(faults("fx: 460"), ElementsAre(HasSubstr("unknown key 'fx' in 'rig.cameras.0'; the focal lengths are "
+                                                       "'focal_x' and 'focal_y'")));
   EXPECT_THAT(faults("fov: 60"), ElementsAre(HasSubstr("'rig.cameras.0.calibration': defines the lens")));
   EXPECT_THAT(faults("width: 320, height: 240"), ElementsAre(HasSubstr("the calibration is of 640 x 480 pixels")));
   EXPECT_THAT(faults("model: fisheye"), ElementsAre(HasSubstr("differs from that of the calibration")));
