@@ -34,6 +34,7 @@ class Validator {
 
   /// Mounts the rig; returns whether that succeeds and every field is still within its bounds.
   bool mounts() {
+    pairs_ = scenario_.rig.stereo.size();
     build("rig", [&] { mount_rig(scenario_.rig, scenario_.avionics.imu.p_BI_m); });
     return errors_.empty() && bounds();
   }
@@ -82,16 +83,16 @@ class Validator {
   void rig() {
     const std::vector<CameraConfig>& cameras = scenario_.rig.cameras;
     for (size_t i = 0; i < cameras.size(); ++i) {
-      build(fmt::format("rig.cameras.{}", i), [&] {
+      const std::string path = camera_path(i);
+      build(path, [&] {
         cameras[i].model();
         cameras[i].X_BC();
       });
-      imperfections(fmt::format("rig.cameras.{}.imperfections", i), cameras[i]);
-      const std::string path = fmt::format("rig.cameras.{}.role", i);
-      if (cameras[i].role.empty()) add(path, "must not be empty");
+      imperfections(path + ".imperfections", cameras[i]);
+      if (cameras[i].role.empty()) add(path + ".role", "must not be empty");
       for (size_t j = 0; j < i; ++j) {
         if (cameras[j].role == cameras[i].role) {
-          add(path, fmt::format("camera {} has the role '{}' already", j, cameras[i].role));
+          add(path + ".role", fmt::format("'{}' has the role '{}' already", camera_path(j), cameras[i].role));
           break;
         }
       }
@@ -178,6 +179,12 @@ class Validator {
   }
 
  private:
+  /// Returns the path of a mounted camera; the cameras of stereo pairs are the last ones.
+  std::string camera_path(size_t i) const {
+    const size_t listed = scenario_.rig.cameras.size() - 2 * pairs_;
+    return i < listed ? fmt::format("rig.cameras.{}", i) : fmt::format("rig.stereo.{}", (i - listed) / 2);
+  }
+
   /// Refuses imperfections that have no effect on the camera's channel.
   void imperfections(const std::string& path, const CameraConfig& camera) {
     const ImperfectionsConfig c = camera.imperfections.value_or(ImperfectionsConfig{});
@@ -225,6 +232,7 @@ class Validator {
   std::optional<dynamics::Avionics> avionics_;
   std::unique_ptr<avoidance::Module> module_;
   scenes::SceneFiles files_;
+  size_t pairs_ = 0;  ///< stereo pairs of the rig before mounting
   bool sensor_rates_fit_ = true;
 };
 

@@ -104,7 +104,9 @@ TEST_F(CrossRules, NoFaultWithoutOverrides) { EXPECT_THAT(faults({}), ElementsAr
 TEST_F(CrossRules, CameraRolesAreUnique) {
   EXPECT_THAT(
       faults({"rig.cameras.2.role=left"}),
-      testing::Contains("--set rig.cameras.2.role: 'rig.cameras.2.role': camera 0 has the role 'left' already"));
+      testing::Contains("--set rig.cameras.2.role: 'rig.cameras.2.role': 'rig.cameras.0' has the role 'left' already"));
+  EXPECT_THAT(faults({"rig.stereo=[{role: rear}, {baseline: 0.1}]"}),
+              testing::Contains("--set rig.stereo: 'rig.stereo.1.role': 'rig.cameras.0' has the role 'left' already"));
 }
 
 TEST_F(CrossRules, RatesDivideThePhysicsRate) {
