@@ -93,7 +93,7 @@ void add_pose(const std::optional<Cameras::Instant>& instant, CsvLine& line) {
 constexpr std::string_view kManifestHead =
     "image,scenario,seed,split,camera,visibility_m,clearance_m,t_s,north_m,east_m,down_m,qw,qx,qy,qz,next_t_s,next_"
     "north_m,"
-    "next_east_m,next_down_m,next_qw,next_qx,next_qy,next_qz\n";
+    "next_east_m,next_down_m,next_qw,next_qx,next_qy,next_qz,file\n";
 
 /// Returns how many images a world has, and the number of its first.
 std::pair<size_t, size_t> images_of(const DatasetRequest& request, size_t world, size_t poses) {
@@ -231,6 +231,7 @@ void write_world(const DatasetRequest& request, size_t world) {
     line.add(request.poses.empty() ? shot.now.body.clearance_m : NAN);
     add_pose(shot.now, line);
     add_pose(shot.next, line);
+    line.add(scenario_of(request, world).stem().string());
   }
   write_file_whole(request.out / "labels" / (world_name(request, world) + ".json"), labels_json(drawn.scene()));
   const std::string calibration_name = scenario_of(request, world).stem().string().append(calibration.suffix);

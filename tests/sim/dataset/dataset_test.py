@@ -70,6 +70,13 @@ class Dataset(unittest.TestCase):
         self.assertEqual(sorted(split_of.values()), ["test", "train", "val"])
         self.assertTrue(all(split_of[row["seed"]] == row["split"] for row in self.rows))
 
+    def test_the_manifest_names_labels_and_calibration(self):
+        self.assertEqual(list(self.rows[0])[-1], "file")
+        self.assertEqual({row["scenario"] for row in self.rows}, {"world_park"})
+        for row in self.rows:
+            self.assertTrue((self.out / "labels" / f"{row['file']}-seed{row['seed']}.json").is_file(), row)
+            self.assertTrue((self.out / "calibration" / f"{row['file']}.yaml").is_file(), row)
+
     def test_any_number_of_workers_and_any_interruption_give_the_same_bits(self):
         other = self.folder / "two"
         self.assertEqual(dataset(other, "--seeds", "1:3", "--images", 7, "-j", 2).returncode, 0)
