@@ -50,9 +50,12 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
                    "role of a camera to export; may be repeated, the first is cam0; default all cameras with images")
       ->type_name("NAME");
   CLI::Option* const truth = command->add_flag(
-      "--truth", data.truth, "also write ground-truth depth, labels, classes, moving-object masks and optical flow");
+      "--truth", data.truth,
+      "also write ground truth: for data sets depth, labels, classes, moving-object masks and optical flow; for mcap "
+      "and rosbag2 depth");
   command
-      ->add_flag("--float-depth", data.float_depth, "ground-truth depth as TIFF of 32-bit floats, m, without a limit")
+      ->add_flag("--float-depth", data.float_depth,
+                 "ground-truth depth of a data set as TIFF of 32-bit floats, m, without a limit")
       ->needs(truth);
   command->add_option("--compression", data.compression, "of mcap and rosbag2: zstd (the default), lz4 or none")
       ->check(CLI::IsMember({"zstd", "lz4", "none"}));

@@ -59,6 +59,10 @@ int export_run(const ExportOptions& options) {
                               compression_of(options.compression),
                               options.compressed_images,
                               options.out.empty() ? folder / options.format : options.out};
+  if (options.truth && request.format == DataFormat::ulog)
+    notice("warning: --truth has no effect on ulog, which has no images; valid: euroc, tum, kitti, mcap, rosbag2\n");
+  if (options.float_depth && is_log(request.format))
+    notice("warning: --float-depth has no effect on a log; valid: euroc, tum, kitti\n");
   FlightProgress progress(scenario.name);
   const Flight flight = export_flight(
       scenario, request,

@@ -126,6 +126,16 @@ class Truth(unittest.TestCase):
         self.assertLess(np.median(off), 0.02)  # half a unit of flow is 0.008 px
         self.assertLess(np.quantile(off, 0.99), 0.05)
 
+    def test_options_without_effect_on_a_log_print_a_line(self):
+        cases = (("ulog", ["--truth"], ["--truth"]), ("ulog", ["--truth", "--float-depth"], ["--truth", "--float-depth"]),
+                 ("mcap", ["--truth", "--float-depth"], ["--float-depth"]), ("mcap", ["--truth"], []))
+        for number, (name, options, ignored) in enumerate(cases):
+            done = hedgehop("export", self.folder / "run", "--format", name, "--camera", "down", *options,
+                            "--out", self.folder / f"log{number}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            words = [line.split()[1] for line in done.stderr.splitlines() if line.startswith("warning: --")]
+            self.assertEqual(words, ignored, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
