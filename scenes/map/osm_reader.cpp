@@ -218,8 +218,8 @@ class Objects : public osmium::handler::Handler {
     building_ways_.insert(way.id());
     const auto& nodes = way.nodes();
     if (const osmium::NodeRef* lost = first_lost(nodes)) return report(way, lacks(lost->ref()));
+    if (nodes.empty() || !way.ends_have_same_location()) return report(way, "its outline is open");
     if (nodes.size() < 4) return report(way, "its outline has fewer than 3 corners");
-    if (!way.ends_have_same_location()) return report(way, "its outline is open");
     if (way.tags().has_tag("area", "no")) return report(way, "its tag area=no contradicts building");
     outlines_.push_back(name_of(way));
   }

@@ -169,6 +169,10 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   scene.meshes.push_back(mesh.finish());
   map::add_traffic(streets, ground, town, config.vehicles, config.vehicle_speed_mps, derived_seed(seed, kTrafficStream),
                    scene.movers);
+  if (const auto cars = static_cast<int64_t>(scene.movers.size()); cars < config.vehicles) {
+    contents.remarks.push_back(std::to_string(cars) + " of " + std::to_string(config.vehicles) +
+                               " cars: no further straight piece of a street is 40 m long");
+  }
   std::ranges::move(map::one_line_each(faults), std::back_inserter(contents.remarks));
   return contents;
 }

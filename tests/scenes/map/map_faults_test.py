@@ -36,12 +36,15 @@ class Objects(MapCase):
                file.outline([(-160, 0)] * 4, BUILDING),
                file.box(-170, 0, 5, 5, {"area": "no"}),
                file.outline([(-180, 0), (-185, 0), (-185, 5)], {"building:part": "yes"})]
+        triangle = file.way([file.node(-100, 40), file.node(-110, 40), file.node(-110, 50)], BUILDING)  # open
+        bad.append(triangle)
         beyond = file.node_at(95.0, 8.0)
         bad.append(file.way([1, beyond, 3, 1], BUILDING))
         names = [f"way {number}" for number in bad] + [f"node {file.node(-60, 60, BUILDING)}"]
         for path in ("faulty.osm", "faulty.osm.pbf"):
             lines = self.expect(file, names, path)
             self.assertIn("4 buildings", lines[0].replace("5 buildings", "4 buildings"))
+            self.assertIn(f"way {triangle}: its outline is open", lines)
 
     def test_relations(self):
         file = village()
@@ -68,6 +71,11 @@ class Objects(MapCase):
             ("min_height", "20"), ("building:min_level", "nan"), ("roof:shape", "onion"), ("roof:height", "-1"), ("roof:direction", "up")])]
         bad.append(file.box(-60, 60, 5, 5, {"height": "tall", "roof:shape": "onion", "min_height": "-1"}))  # three faults
         self.expect(file, [f"way {number}" for number in bad])
+
+    def test_cars_without_a_street(self):
+        lines = self.remarks({"osm": self.written(village()), "vehicles": 3})
+        self.assertEqual(lines[1:], ["1 of 3 cars: no further straight piece of a street is 40 m long"])
+        self.assertEqual(len(self.remarks({"osm": self.written(village()), "vehicles": 1})), 1)
 
     def test_streets_and_trees(self):
         file = village()
