@@ -215,7 +215,8 @@ RecordedFlight read_recorded_flight(const std::filesystem::path& file, const Log
       const Eigen::Index larger = std::abs(rpy[i].x()) > std::abs(rpy[i].y()) ? 0 : 1;
       if (const double angle_rad = rpy[i][larger]; std::abs(angle_rad) > 2.0 * std::numbers::pi) {
         throw InputError(fmt::format(
-            "{}: {} is {:.4g} rad in row {}; if the column is in degrees, map it with scale: 0.0174533 (--columns)",
+            "{}: {} is {:.4g} rad in row {}; valid: -2 pi to 2 pi; if the column is in degrees, map it with scale: "
+            "0.0174533 (--columns)",
             log.file(), kAngles[static_cast<size_t>(larger)], angle_rad, i + 1));
       }
       flight.states[i].q_WB = dynamics::from_roll_pitch_heading(rpy[i].x(), rpy[i].y(), rpy[i].z());
