@@ -203,10 +203,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   const std::string value_text = text.substr(equals + 1);
   ErrorList of_value(errors.kind());
   Node value = value_text.empty() ? Node{} : parse_yaml(value_text, position.file, of_value);
-  if (!of_value.empty()) {
-    errors.add(position, fmt::format("'{}' is not a YAML value", value_text));
-    return;
-  }
+  if (!of_value.empty()) return errors.add(position, fmt::format("'{}' is not a YAML value", value_text));
   set_positions(value, position);
   if (keys.back() == "use" && keys.size() > 1) {
     Node map;
