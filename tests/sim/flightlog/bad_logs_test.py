@@ -31,7 +31,7 @@ class BadInput(Logs):
         other.write_text(other.read_text().replace("t_s", "time", 1))
         self.assertIn("the file has time, north_m, east_m", self.refused("compare-log", quadrotor, other))
         degrees = self.log([{"t_s": t, "pitch_rad": 9.0} for t in self.times(1.0)], "degrees.csv")
-        self.assertIn("pitch_rad is 9 rad in row 1; if the column is in degrees", self.refused("compare-log", quadrotor, degrees))
+        self.assertIn("pitch_rad is 9 rad in row 1; valid: -2 pi to 2 pi; if the column is in degrees", self.refused("compare-log", quadrotor, degrees))
         late = self.log([{"t_s": t, **{name: "" if t < 0.2 else 0.0 for name in (
             "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad")}} for t in self.times(1.0)], "late.csv")
         self.assertIn("no finite number in row 1; row 21 has the first", self.refused("compare-log", quadrotor, late))
