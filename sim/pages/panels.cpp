@@ -98,15 +98,15 @@ void add_motion(TrajectoryPanels& p, const std::vector<Limit>& clearance_limits)
                        {{"obstacles", "a", clearance}, {"ground", "b", p.column("ground_clearance_m")}});
   panel.lowest = 0.0;
   panel.limits = clearance_limits;
-  double least = kClearanceShownM, largest = 0.0;
+  double lowest = kClearanceShownM, largest = 0.0;
   for (const Series& series : panel.series) {
     for (const double value : series.values) {
       if (!std::isfinite(value)) continue;
-      least = std::min(least, value);
+      lowest = std::min(lowest, value);
       largest = std::max(largest, value);
     }
   }
-  if (least < kClearanceShownM && largest > kClearanceShownM) panel.highest = kClearanceShownM;
+  if (lowest < kClearanceShownM && largest > kClearanceShownM) panel.highest = kClearanceShownM;
 
   p.add(kMotionSection, "Altitude", "m", kTruthNote,
         {{"commanded", "cmd", p.column("cmd_altitude_m")},

@@ -18,10 +18,10 @@ function short(value, figures = 4) {
   const digits = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
   return String(Number(value.toFixed(digits))).replace('-', '−');
 }
-/** Returns the number of figures, at least `least`, with which short() distinguishes these numbers. */
-function figuresFor(values, least = 4) {
+/** Returns the number of figures, at least `minimum`, with which short() distinguishes these numbers. */
+function figuresFor(values, minimum = 4) {
   const different = new Set(values.filter((v) => v !== null)), texts = (figures) => new Set([...different].map((v) => short(v, figures)));
-  let figures = least;
+  let figures = minimum;
   while (figures < 7 && texts(figures).size < different.size) ++figures;
   return figures;
 }
