@@ -75,11 +75,9 @@ class CollisionWorld::World {
     surfaces_.visit_near([&](const Eigen::AlignedBox3d& box_W) { return hull_.min_distance_m(box_W, reach_m()); },
                          reach_m, consider_other);
     if (nearest.id) last_nearest_ = nearest.id;
-    for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
-      for (size_t k = 0; k < mover_bodies.count; ++k)
-        consider(id_of_[mover_bodies.first + k], placed(mover_bodies, k, X_WM), nearest);
-    }
+    move_to(t_s);
+    for (size_t index = first_moving_; index < placed_.size(); ++index)
+      consider(id_of_[index], placed_[index], nearest);
 
     Proximity result;
     if (nearest.id) {
@@ -92,7 +90,7 @@ class CollisionWorld::World {
     return result;
   }
 
-  double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) const {
+  double height_above_surface(const Eigen::Vector3d& p_WB, double t_s) {
     double height_m = has_ground_ ? std::max(-p_WB.z(), 0.0) : kInfinity;
     const Eigen::Vector3d lowest_W(p_WB.x(), p_WB.y(), std::max(p_WB.z(), lowest_z_));
     visit_static(p_WB, lowest_W,
@@ -100,18 +98,16 @@ class CollisionWorld::World {
     surfaces_.visit_along(p_WB, lowest_W, [&](size_t, const PlacedBody& body) {
       height_m = std::min(height_m, height_above(p_WB, body));
     });
-    for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
-      if ((p_WB - X_WM.translation()).head<2>().norm() > mover_bodies.radius_m) continue;
-      for (size_t k = 0; k < mover_bodies.count; ++k) {
-        height_m = std::min(height_m, height_above(p_WB, placed(mover_bodies, k, X_WM)));
-      }
+    move_to(t_s);
+    for (size_t index = first_moving_; index < placed_.size(); ++index) {
+      const PlacedBody& body = placed_[index];
+      if ((p_WB - body.X_WS.translation()).head<2>().norm() > body.body->bounding_radius_m) continue;
+      height_m = std::min(height_m, height_above(p_WB, body));
     }
     return height_m;
   }
 
-  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m,
-                        double t_s) const {
+  double distance_along(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W, double reach_m, double t_s) {
     double nearest_m = has_ground_ ? ground_along(p_W, direction_W) : kInfinity;
     const auto meet = [&](const PlacedBody& body) {
       nearest_m = std::min(nearest_m, body.body->ray_length(body.X_SW * p_W, body.X_SW.linear() * direction_W));
@@ -120,19 +116,16 @@ class CollisionWorld::World {
     const Eigen::Vector3d end_W = p_W + reach_m * direction_W;
     btDbvt::rayTest(tree_.m_root, to_bullet(p_W), to_bullet(end_W), collector);
     surfaces_.visit_along(p_W, end_W, [&](size_t, const PlacedBody& body) { meet(body); });
-    for (const MoverBodies& mover_bodies : movers_) {
-      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
-      for (size_t k = 0; k < mover_bodies.count; ++k) meet(placed(mover_bodies, k, X_WM));
-    }
+    move_to(t_s);
+    for (size_t index = first_moving_; index < placed_.size(); ++index) meet(placed_[index]);
     return nearest_m <= reach_m ? nearest_m : kInfinity;
   }
 
  private:
-  // Bodies of a mover: `count` from `first` on, placed in M, all within the radius of M's origin.
+  // Bodies of a mover, in the order of its solids.
   struct MoverBodies {
     scenes::Motion motion;
-    size_t first = 0, count = 0;
-    double radius_m = 0.0;
+    size_t count = 0;
   };
 
   struct NearestBody {
@@ -178,24 +171,31 @@ class CollisionWorld::World {
     tree_.optimizeTopDown();
   }
 
-  // Places the remaining bodies, all of movers, in M.
+  // Makes room for the remaining bodies, all of movers.
   void place_moving(const scenes::Scene& scene) {
+    first_moving_ = placed_.size();
     size_t solid_index = scene.solids.size();
     for (const scenes::Mover& mover : scene.movers) {
       scenes::require_motion(mover.motion);
-      MoverBodies& mover_bodies = movers_.emplace_back(MoverBodies{mover.motion, placed_.size()});
+      MoverBodies& mover_bodies = movers_.emplace_back(MoverBodies{mover.motion});
       solid_index += mover.solids.size();
       for (; placed_.size() < bodies_.size() && solid_of(id_of_[placed_.size()]) < solid_index; ++mover_bodies.count) {
-        const PlacedBody& body = place_next();
-        const double out_m = body.X_WS.translation().norm() + body.body->bounding_radius_m;
-        mover_bodies.radius_m = std::max(mover_bodies.radius_m, out_m);
+        place_next();
       }
     }
   }
 
-  PlacedBody placed(const MoverBodies& mover_bodies, size_t k, const Eigen::Isometry3d& X_WM) const {
-    const PlacedBody& in_M = placed_[mover_bodies.first + k];
-    return {*in_M.body, X_WM * in_M.X_WS};
+  // Moves the movers' bodies, unless their present place is of that time.
+  void move_to(double t_s) {
+    if (moved_to_s_ == t_s) return;
+    size_t index = first_moving_;
+    for (const MoverBodies& mover_bodies : movers_) {
+      const Eigen::Isometry3d X_WM = scenes::X_WM(mover_bodies.motion, t_s);
+      for (const size_t end = index + mover_bodies.count; index < end; ++index) {
+        placed_[index] = {bodies_[index].body, X_WM * bodies_[index].X_WS};
+      }
+    }
+    moved_to_s_ = t_s;
   }
 
   void consider_last(size_t id, NearestBody& nearest) const {
@@ -245,7 +245,9 @@ class CollisionWorld::World {
   std::vector<size_t> first_id_;    // of each solid
   std::vector<PosedBody> bodies_;   // in that order, without the triangles of surfaces that do not move
   std::vector<size_t> id_of_;       // of each body
-  std::vector<PlacedBody> placed_;  // in W; those of movers in M
+  std::vector<PlacedBody> placed_;  // in W; those of movers from first_moving_ on, at time moved_to_s_
+  size_t first_moving_ = 0;
+  std::optional<double> moved_to_s_;
   SurfaceTree surfaces_;
   std::vector<MoverBodies> movers_;
   btDbvt tree_;                         // of static bodies
