@@ -32,10 +32,12 @@ std::string default_column(const std::filesystem::path& folder, const FlightList
   return low < high || !has_column(points, kClearance) ? "passed" : kClearance;
 }
 
-std::string unit_of_column(const std::string& column) {
-  if (column.ends_with("_mps")) return "m/s";
-  if (column.ends_with("_m")) return "m";
-  return column.ends_with("_s") ? "s" : "";
+std::string label_of(const std::string& column) {
+  constexpr std::array kUnits = {std::pair{"_mps", "m/s"}, std::pair{"_m", "m"}, std::pair{"_s", "s"}};
+  for (const auto& [ending, unit] : kUnits) {
+    if (column.ends_with(ending)) return column.substr(0, column.rfind('_')) + ", " + unit;
+  }
+  return column;
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightLis
                      suggestion(column, {points.columns.begin(), points.columns.end()}));
   }
   analysis.column = column;
-  analysis.unit = unit_of_column(column);
+  analysis.label = label_of(column);
   analysis.less = !more_is_better(column);
   analysis.figures = point_figures(flights, points, column);
   const std::vector<double> clearance = has_column(points, kClearance) ? point_means(flights, points, kClearance)

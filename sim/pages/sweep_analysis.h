@@ -18,7 +18,8 @@ struct PointFigure {
 /// The ranking of a sweep's points by a column.
 struct SweepAnalysis {
   SweepTable points;
-  std::string column, unit;
+  std::string column;
+  std::string label;                 ///< the column with its unit apart, such as "min_obstacle_clearance, m"
   bool less = true;                  ///< whether less is better
   std::vector<PointFigure> figures;  ///< one per point
   std::vector<size_t> ranking;       ///< points whose flights all passed first, then by the mean, then by the clearance

@@ -85,17 +85,13 @@ std::vector<double> means(const std::vector<PointFigure>& figures) {
   return values;
 }
 
-std::string label(const SweepAnalysis& analysis) {
-  return analysis.unit.empty() ? analysis.column : fmt::format("{}, {}", analysis.column, analysis.unit);
-}
-
 FigureCanvas main_effects(const SweepAnalysis& analysis) {
   const size_t count = analysis.points.paths.size();
   FigureCanvas canvas(kWidth, kHeight * static_cast<double>(count));
   for (size_t p = 0; p < count; ++p) {
     const Places places = places_of(analysis.points, p);
     FigurePlot plot(canvas, {0.0, kHeight * static_cast<double>(p)}, kWidth, kHeight, places.axis,
-                    FigureAxis::of_numbers(label(analysis), means(analysis.figures)));
+                    FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
     std::vector<std::vector<size_t>> groups(places.level_at.size());
     for (size_t i = 0; i < places.at.size(); ++i) {
       groups[places.level[i]].push_back(i);
@@ -139,14 +135,14 @@ FigureCanvas heat_map(const SweepAnalysis& analysis, size_t across, size_t up) {
     canvas.text({0.5 * (corner.x + end.x), 0.5 * (corner.y + end.y) + 2.3}, words, 6.5, FigureCanvas::Anchor::center,
                 false, is_dark(color) ? "#ffffff" : "#1b2330");
   }
-  canvas.text({kWidth - 4.0, 9.0}, "mean of " + label(analysis), 7.0, FigureCanvas::Anchor::right);
+  canvas.text({kWidth - 4.0, 9.0}, "mean of " + analysis.label, 7.0, FigureCanvas::Anchor::right);
   return canvas;
 }
 
 FigureCanvas pareto(const SweepAnalysis& analysis, const std::string& other, const std::vector<PointFigure>& figures) {
   FigureCanvas canvas(kWidth, kHeight);
   const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, kHeight, FigureAxis::of_numbers(other, means(figures)),
-                        FigureAxis::of_numbers(label(analysis), means(analysis.figures)));
+                        FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
   const std::vector<size_t> front = pareto_front(analysis, figures, !more_is_better(other));
   for (size_t i = 0; i < figures.size(); ++i) {
     if (std::isnan(figures[i].mean) || std::isnan(analysis.figures[i].mean)) continue;

@@ -43,10 +43,6 @@ std::string latex_table(const Words& head, const std::vector<Words>& rows, size_
   return out + "\\bottomrule\n\\end{tabular}\n";
 }
 
-std::string mean_label(const SweepAnalysis& analysis) {
-  return analysis.unit.empty() ? analysis.column : fmt::format("{} [{}]", analysis.column, analysis.unit);
-}
-
 Words column_of(const SweepAnalysis& analysis, const std::vector<size_t>& order, size_t parameter) {
   Words words;
   for (const size_t i : order) words.push_back(analysis.points.values[i][parameter]);
@@ -89,7 +85,7 @@ std::string ranking_latex(const SweepAnalysis& analysis) {
   constexpr size_t kRows = 10;
   Words head = {"rank"};
   for (const std::string& path : analysis.points.paths) head.push_back("\\texttt{" + latex(path) + "}");
-  head.insert(head.end(), {"mean of " + latex(mean_label(analysis)), "95\\,\\% interval", "passed"});
+  head.insert(head.end(), {"mean of " + latex(analysis.label), "95\\,\\% interval", "passed"});
   std::vector<Words> rows;
   for (const size_t i : analysis.ranking) {
     if (rows.size() == kRows) break;

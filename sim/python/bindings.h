@@ -47,6 +47,7 @@ cv::Mat rgb_image(const pybind11::handle& array);
 /// Returns (w, x, y, z).
 inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
+void bind_cameras(pybind11::module_& native);
 void bind_states(pybind11::module_& native);
 void bind_modules(pybind11::module_& native);
 void bind_simulation(pybind11::module_& native);

@@ -118,64 +118,7 @@ void bind_observation(py::module_& native) {
       .def_readonly("goal", &Observation::goal, "current goal");
 }
 
-/// Returns the unit rays of all pixels in C, rows x cols x 3; NaN outside the image circle.
-py::array_t<double> rays(const MountedCamera& camera) {
-  const int rows = camera.model.height_px, cols = camera.model.width_px;
-  py::array_t<double> directions({rows, cols, 3});
-  auto d = directions.mutable_unchecked<3>();
-  for (int v = 0; v < rows; ++v) {
-    for (int u = 0; u < cols; ++u) {
-      const Eigen::Vector3d ray = camera.model.unit_ray({u, v}).value_or(Eigen::Vector3d::Constant(std::nan("")));
-      for (int i = 0; i < 3; ++i) d(v, u, i) = ray[i];
-    }
-  }
-  return directions;
-}
-
 void bind_setup(py::module_& native) {
-  py::class_<CameraNeed> need(native, "CameraNeed", "A camera that a module requires.");
-  py::enum_<CameraNeed::Channel>(need, "Channel")
-      .value("grey", CameraNeed::Channel::grey)
-      .value("color", CameraNeed::Channel::color)
-      .value("depth", CameraNeed::Channel::depth)
-      .value("corners", CameraNeed::Channel::corners);
-  need.def(py::init([](std::string role, const std::string& channel, bool pinhole) {
-             const std::array<std::string, 4> names = {"grey", "color", "depth", "corners"};
-             const auto* const name = std::find(names.begin(), names.end(), channel);
-             if (name == names.end()) {
-               throw std::invalid_argument("channel '" + channel + "'; allowed: grey, color, depth, corners");
-             }
-             return CameraNeed{std::move(role), static_cast<CameraNeed::Channel>(name - names.begin()), pinhole};
-           }),
-           "role"_a, "channel"_a = "grey", "pinhole"_a = false)
-      .def_readonly("role", &CameraNeed::role)
-      .def_readonly("channel", &CameraNeed::channel)
-      .def_readonly("pinhole", &CameraNeed::pinhole);
-  py::class_<MountedCamera>(
-      native, "MountedCamera",
-      "A camera with its calibration and its pose. C: right, down, forward; its origin is the center "
-      "of projection.")
-      .def_readonly("role", &MountedCamera::role, "name of the camera in the rig")
-      .def_readonly("rate_hz", &MountedCamera::rate_hz, "images per second")
-      .def_property_readonly(
-          "width_px", [](const MountedCamera& c) { return c.model.width_px; }, "columns of an image")
-      .def_property_readonly(
-          "height_px", [](const MountedCamera& c) { return c.model.height_px; }, "rows of an image")
-      .def_property_readonly(
-          "lens", [](const MountedCamera& c) { return c.model.lens_name(); },
-          "name of the lens, such as 'distorted pinhole'")
-      .def_property_readonly(
-          "pinhole",
-          [](const MountedCamera& c) {
-            const vision::camera::PinholeCamera p = c.model.pinhole();
-            return py::dict("focal_x_px"_a = p.focal_x_px, "focal_y_px"_a = p.focal_y_px,
-                            "center_u_px"_a = p.center_u_px, "center_v_px"_a = p.center_v_px);
-          },
-          "focal lengths and principal point; ValueError for another lens")
-      .def_property_readonly(
-          "X_BC", [](const MountedCamera& c) { return Eigen::Matrix4d(c.X_BC.matrix()); },
-          "pose in B, 4 x 4: p_B = X_BC @ p_C")
-      .def("rays", &rays, "unit rays of all pixels in C, rows x columns x 3; NaN outside the image circle");
   py::class_<VehicleLimits>(native, "VehicleLimits", "Limits of the autopilot, and the size of the vehicle.")
       .def_readonly("speed_mps", &VehicleLimits::speed_mps, "maximum speed")
       .def_readonly("acceleration_mps2", &VehicleLimits::acceleration_mps2, "maximum acceleration")
@@ -264,6 +207,7 @@ sim::CallerCommand to_caller_command(const py::handle& command) {
 void bind_states(py::module_& native) {
   bind_commands(native);
   bind_observation(native);
+  bind_cameras(native);
   bind_setup(native);
   bind_policies(native);
   bind_truth(native);

@@ -163,7 +163,7 @@ TEST(SweepFigures, AreTablesAndDrawingsThatOtherProgramsRead) {
   }
   EXPECT_THAT(folder.read("figures/ranking.csv"),
               HasSubstr("rank,point,avoidance.gain,avoidance.range,mean_min_obstacle_clearance_m"));
-  EXPECT_THAT(folder.read("figures/ranking.tex"), HasSubstr("mean of min\\_obstacle\\_clearance\\_m [m]"));
+  EXPECT_THAT(folder.read("figures/ranking.tex"), HasSubstr("mean of min\\_obstacle\\_clearance, m"));
   const Table indices(folder.path() / "figures/indices.csv");
   EXPECT_EQ(indices.rows(), 2u);
   EXPECT_THAT(indices.names(), ::testing::ElementsAre("parameter", "first", "total"));  // exact, so no intervals

@@ -129,6 +129,38 @@ class Images(unittest.TestCase):
         expected = np.array([(u - p["center_u_px"]) / p["focal_x_px"], (v - p["center_v_px"]) / p["focal_y_px"], 1])
         np.testing.assert_allclose(rays[v, u], expected / np.linalg.norm(expected), atol=1e-12)
 
+    def test_every_lens_projects_the_rays_of_its_pixels(self):
+        size = {"width": 64, "height": 48, "focal_x": 40, "rate": 25}
+        lenses = [{"role": "pinhole", "distortion": [-0.28, 0.075, 0.0004, -0.0002]},
+                  {"role": "rational", "distortion": [0.1, 0.02, 0.0, 0.0, 0.0, 0.2, 0.01, 0.003]},
+                  {"role": "fisheye", "model": "fisheye", "distortion": [0.05, 0.01, -0.002, 0.001]},
+                  {"role": "unified", "model": "unified", "xi": 0.8, "distortion": [-0.1, 0.02, 0.001, 0.0]},
+                  {"role": "double", "model": "double_sphere", "xi": -0.2, "alpha": 0.6}]
+        cameras = hedgehop.Simulation(CITY, set={**STRAIGHT, "velocimeter.enabled": False,
+                                                  "rig.cameras": [{**size, **lens} for lens in lenses]}).cameras
+        v, u = np.mgrid[:48, :64]
+        for role, camera in cameras.items():
+            with self.subTest(role):
+                rays = camera.rays()
+                seen = np.isfinite(rays[..., 0])
+                self.assertGreater(np.mean(seen), 0.5)
+                np.testing.assert_allclose(camera.project(5 * rays[seen]), np.stack([u, v], -1)[seen], atol=1e-6)
+                self.assertTrue(np.all(np.isnan(camera.project(rays[~seen]))))
+        lens = cameras["pinhole"].lens_parameters
+        x, y = 0.3, -0.2
+        r2 = x * x + y * y
+        radial = 1 + lens["k1"] * r2 + lens["k2"] * r2**2 + lens["k3"] * r2**3
+        distorted = [x * radial + 2 * lens["p1"] * x * y + lens["p2"] * (r2 + 2 * x * x),
+                     y * radial + lens["p1"] * (r2 + 2 * y * y) + 2 * lens["p2"] * x * y]
+        expected = [lens["focal_x_px"] * distorted[0] + lens["center_u_px"],
+                    lens["focal_y_px"] * distorted[1] + lens["center_v_px"]]
+        np.testing.assert_allclose(cameras["pinhole"].project([2 * x, 2 * y, 2]), expected, atol=1e-9)
+        self.assertTrue(np.all(np.isnan(cameras["pinhole"].project([0, 0, -1]))))
+        self.assertEqual(set(cameras["double"].lens_parameters) & {"xi", "alpha"}, {"xi", "alpha"})
+        self.assertEqual(cameras["rational"].lens_parameters["k6"], 0.003)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            cameras["pinhole"].project([1, 2])
+
 
 class BadCalls(unittest.TestCase):
     def test_errors_have_the_text_of_the_program(self):
