@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/steady_flight.h"
@@ -109,6 +111,22 @@ void print_trim(const TrimOptions& options, const std::vector<TrimPoint>& rows) 
   }
 }
 
+/// Returns what is known of the fastest steady flight below a speed at which there is none.
+std::string fastest_flight(const dynamics::VehicleConfig& vehicle, double missing_mps) {
+  double found_mps = 0.0;
+  auto fastest = dynamics::steady_flight(vehicle, {0.0, 0.0, 0.0});
+  if (!fastest) return "nor a hover";
+  for (double step_mps = 0.5 * missing_mps; std::abs(step_mps) > 0.05; step_mps *= 0.5) {
+    auto flight = dynamics::steady_flight(vehicle, {found_mps + step_mps, 0.0, 0.0});
+    if (!flight) continue;
+    found_mps += step_mps;
+    fastest = std::move(flight);
+  }
+  const std::vector<std::string> beyond = fastest->beyond();
+  return fmt::format("the fastest is about {:.1f} m/s{}", found_mps,
+                     beyond.empty() ? "" : fmt::format(", beyond {}", fmt::join(beyond, "; ")));
+}
+
 }  // namespace
 
 int trim(const TrimOptions& options) {
@@ -123,10 +141,13 @@ int trim(const TrimOptions& options) {
         missing_mps.push_back(speed_mps);
       }
     }
+    if (found.empty()) {
+      throw InputError(fmt::format("{}: no steady flight at {} m/s; {}", options.vehicle.string(),
+                                   fmt::join(missing_mps, ", "), fastest_flight(vehicle, missing_mps.front())));
+    }
     return found;
   });
   for (const double speed_mps : missing_mps) notice(fmt::format("no steady flight at {} m/s\n", speed_mps));
-  if (rows.empty()) throw InputError(options.vehicle.string() + ": no steady flight at any of the speeds");
   for (const TrimPoint& row : rows) {
     if (const auto beyond = row.flight.beyond(); !beyond.empty()) {
       notice(fmt::format("beyond the limits, not flyable, at {} m/s: {}\n", row.speed_mps, fmt::join(beyond, "; ")));

@@ -42,6 +42,20 @@ TEST(Trim, MarksRowsBeyondTheControlStopsAndPrintsMargins) {
   EXPECT_LT(rows[2]["margin_percent"]["theta_c"].get<double>(), 0.0);
 }
 
+// The named speed has a steady flight, and one a little faster has none.
+TEST(Trim, WithoutSteadyFlightNamesTheFastest) {
+  const std::string vehicle = kVehicles + "artis.yaml";
+  const Answer answer = ask("trim " + vehicle + " --speed 60");
+  EXPECT_EQ(answer.status, 2);
+  const std::string before = "no steady flight at 60 m/s; the fastest is about ";
+  const size_t at = answer.text.find(before);
+  ASSERT_NE(at, std::string::npos) << answer.text;
+  const double fastest_mps = std::stod(answer.text.substr(at + before.size()));
+  EXPECT_THAT(answer.text, HasSubstr(", beyond theta_c "));
+  EXPECT_EQ(ask("trim " + vehicle + " --speed " + std::to_string(fastest_mps - 0.1)).status, 0);
+  EXPECT_EQ(ask("trim " + vehicle + " --speed " + std::to_string(fastest_mps + 0.2)).status, 2);
+}
+
 TEST(Trim, RefusesAFigureAsThePage) {
   const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + testing::TempDir() + "/trim.svg");
   EXPECT_EQ(answer.status, kBadInput);
