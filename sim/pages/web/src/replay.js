@@ -129,7 +129,7 @@ function write(t_s, now_ms) {
   if (now_ms - written_ms < 80) return;
   written_ms = now_ms;
   const at = place(t_s), clearance = path.clearance_m[at.row] ?? null, status = track.statusAt(t_s);
-  element('clock').textContent = `${fixed(t_s, 2)} of ${fixed(endTime(), 1)} s`;
+  element('clock').textContent = `${fixed(t_s, 2)} of ${fixed(endTime(), 2)} s`;
   element('facts').textContent = `${status ? status + ', ' : ''}clearance ${clearance === null ? 'none within range' : meters(clearance)}, ` +
     `speed ${fixed(between(path.speed_mps, at), 1)} m/s, altitude ${fixed(-between(path.down_m, at), 1)} m`;
   element('track').ariaValueNow = fixed(t_s, 2);
