@@ -111,7 +111,7 @@ void print_trim(const TrimOptions& options, const std::vector<TrimPoint>& rows) 
   }
 }
 
-/// Returns what is known of the fastest steady flight below a speed at which there is none.
+/// Returns a sentence about the fastest steady flight below a speed at which there is none.
 std::string fastest_flight(const dynamics::VehicleConfig& vehicle, double missing_mps) {
   double found_mps = 0.0;
   auto fastest = dynamics::steady_flight(vehicle, {0.0, 0.0, 0.0});
