@@ -147,8 +147,8 @@ std::vector<Panel> overlaid_panels(const std::vector<Panel>& own, const std::vec
       // Estimates would hide the comparison.
       const auto match = std::ranges::find(twin->series, series.label, &Series::label);
       if (series.role == "est" || match == twin->series.end()) continue;
-      both.series.push_back({series.label, "", at_times(panel.t_s, series.values, both.t_s)});
-      both.series.push_back({series.label + ", other run", "", at_times(twin->t_s, match->values, both.t_s)});
+      both.series.push_back({series.label, series.role, at_times(panel.t_s, series.values, both.t_s)});
+      both.series.push_back({series.label + ", other run", series.role, at_times(twin->t_s, match->values, both.t_s)});
     }
     if (!both.series.empty()) panels.push_back(std::move(both));
   }

@@ -266,13 +266,17 @@ TEST(ReportInBrowser, ShadesTheTimesOfFailures) {
     const canvas = document.querySelector('.plot canvas'), {data} = canvas.getContext('2d').getImageData(0, 40, canvas.width, 1);
     const reddish = [...Array(canvas.width).keys()].map((x) => data[4 * x + 3] > 0 && data[4 * x] > data[4 * x + 1] + 8 && data[4 * x] > data[4 * x + 2] + 8);
     const spans = reddish.filter((red, x) => red && !reddish[x - 1]).length;
+    const rows = [], none = () => {}, ctx = {save: none, restore: none, fillRect: none, measureText: () => ({width: 100}), fillText: (text, x, y) => rows.push(y)};
+    drawFailures({ctx, bbox: {left: 0, top: 0, width: 400, height: 100}, valToPos: (t) => 40 * t},
+      [{from_s: 1, to_s: 2, text: 'a'}, {from_s: 2, to_s: 3, text: 'b'}, {from_s: 6, to_s: 7, text: 'c'}]);
     return [document.getElementById('verdict').textContent.includes('Failures injected by the scenario: 2 s to 4 s: camera.front black; 8 s'),
-            failuresOf({failures: ['2.5 s to 4 s: a off', '8 s to the end: b off', '60 s to the end: c off']}, 10), spans];)js");
+            failuresOf({failures: ['2.5 s to 4 s: a off', '8 s to the end: b off', '60 s to the end: c off']}, 10), spans, rows];)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value.at(0), true);
   EXPECT_EQ(page.value.at(1), nlohmann::json::parse(R"([{"from_s": 2.5, "to_s": 4, "text": "a off"},
                                                         {"from_s": 8, "to_s": 10, "text": "b off"}])"));
   EXPECT_GE(page.value.at(2).get<int>(), 2);
+  EXPECT_EQ(page.value.at(3), nlohmann::json::parse("[2, 15, 2]")) << "overlapping names have different rows";
 }
 
 TEST(ReportInBrowser, HasNoMapWithoutAMapAndNoSummaryOfASuccess) {

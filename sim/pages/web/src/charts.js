@@ -7,13 +7,14 @@ const timeAxis = {key: 't_s', label: 'time, s', symbol: 't', unit: 's', points: 
 const roleColors = {left: 'c0', right: 'c1', front: 'c2', rear: 'c3', down: 'c4',
   true: 'true', est: 'est', cmd: 'cmd', a: 'c0', b: 'c1', c: 'c2', d: 'c3'};
 
-/** Returns color and width of each series of a panel. */
+/** Returns color, width and dashes of each series of a panel. That of another run is dashed, in the color of the series before it. */
 function seriesLooks(series) {
-  let next = 0;
-  return series.map(({role}) => ({
-    color: themeColor(roleColors[role] || 'c' + next++ % 6),
-    width: role === 'true' ? 1.75 : role === 'est' ? 1 : 1.25,
-  }));
+  let next = 0, color;
+  return series.map(({label, role}) => {
+    const other = label.endsWith(', other run');
+    if (!other) color = themeColor(roleColors[role] || 'c' + next++ % 6);
+    return {color, width: role === 'true' ? 1.75 : role === 'est' ? 1 : 1.25, dash: other ? [6, 4] : undefined};
+  });
 }
 
 /** Returns the ends of the value axis: the range of the data with a margin, or the fixed end of the panel. */
@@ -60,13 +61,16 @@ function drawFailures(u, failures) {
   c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
   c.textAlign = 'left';
   c.textBaseline = 'top';
+  let row = 0, end = -Infinity;  // of the texts: one that begins before the end of another is in the next row
   for (const {from_s, to_s, text} of failures) {
     const [from, to] = [from_s, to_s].map((t) => Math.min(Math.max(u.valToPos(t, 'x', true), u.bbox.left), u.bbox.left + u.bbox.width));
     if (to <= from) continue;
     c.globalAlpha = 0.12;
     c.fillRect(from, top, to - from, height);
     c.globalAlpha = 1;
-    c.fillText(text, from + 3 * devicePixelRatio, top + 2 * devicePixelRatio);
+    row = from < end ? row + 1 : 0;
+    end = from + c.measureText(text).width + 6 * devicePixelRatio;
+    c.fillText(text, from + 3 * devicePixelRatio, top + (2 + 13 * row) * devicePixelRatio);
   }
   c.restore();
 }
@@ -147,10 +151,10 @@ class Charts {
         }}},
       axes: [{...axis, size: 30, label: xLabel, labelSize: 14,
         values: (u, splits) => splits.map((v) => v === null ? '' : v.toLocaleString('en-US').replace('-', '−'))},
-        {...axis, size: (u, texts) => Math.max(46, 14 + 7 * Math.max(...(texts ?? []).map(({length}) => length))), label: panel.unit, values: (u, splits) => tickTexts(splits)}],
+        {...axis, space: Math.min(30, this.height / 7), size: (u, texts) => Math.max(46, 14 + 7 * Math.max(...(texts ?? []).map(({length}) => length))), label: panel.unit, values: (u, splits) => tickTexts(splits)}],
       series: [{label: symbol, value: (u, v) => v === null ? '' : `${fixed(v, 2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
-          label, stroke: looks[i].color, width: looks[i].width, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},
+          label, stroke: looks[i].color, width: looks[i].width, dash: looks[i].dash, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},
           paths: role === 'cmd' ? uPlot.paths.stepped({align: 1}) : undefined,
           value: (u, v) => v === null || v === undefined ? '–' : short(v)}))],
       hooks: {

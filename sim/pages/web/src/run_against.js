@@ -32,7 +32,7 @@ class RunAgainst {
     row('path length, m', (r) => fixed(r.path_length_m, 1));
     row('minimum clearance to obstacles, m', (r) => fixed(r.min_obstacle_clearance_m, 2));
     row('distance to the goal, m', (r) => fixed(r.goal_distance_m, 1));
-    row('build', (r) => r.build);
+    row('build', (r) => r.build.slice(0, 8));
   }
   fillSettings(host) {
     const {settings} = this.against;
