@@ -1,5 +1,7 @@
 #include "sim/pages/panels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -106,7 +108,10 @@ void add_motion(TrajectoryPanels& p, const std::vector<Limit>& clearance_limits)
       largest = std::max(largest, value);
     }
   }
-  if (lowest < kClearanceShownM && largest > kClearanceShownM) panel.highest = kClearanceShownM;
+  if (lowest < kClearanceShownM && largest > kClearanceShownM) {
+    panel.highest = kClearanceShownM;
+    panel.note += fmt::format("; not shown above {:.0f} m", kClearanceShownM);
+  }
 
   p.add(kMotionSection, "Altitude", "m", kTruthNote,
         {{"commanded", "cmd", p.column("cmd_altitude_m")},

@@ -64,11 +64,19 @@ TEST(CampaignInBrowser, DistinguishesNumbersAndNamesOfAxes) {
     axes.set(numberAxis('x', [0, 1]), numberAxis('y', [-0.0123456, -0.0123451]));
     const data = JSON.parse(document.getElementById('data').textContent), points = new SweepPoints(data, new FlightTable(data));
     const name = (id) => document.querySelector(`#${id} canvas`).ariaLabel;
-    return {ticks: new Set(drawn.filter((text) => text.startsWith('−0.0123'))).size, left: axes.frame.x,
+    const low = new Axes(document.body.appendChild(make('div')), 230, {draw: () => {}, hover: () => null, pick: () => {}});
+    low.set({...numberAxis('flight', [1, 1]), whole: true}, numberAxis('y', [-0.33, 0.86]));
+    const values = (axis, pixels) => low.ticks(axis, pixels, 16).map(({value}) => value);
+    return {whole: values(low.xAxis, 1200), rises: values(low.yAxis, low.frame.height).length, counts: [countOf(1, 'flight'), countOf(0, 'flight')],
+            group: groupWords('point 000000 wind.speed=1.071013152100261'), ticks: new Set(drawn.filter((text) => text.startsWith('−0.0123'))).size, left: axes.frame.x,
             levels: parameterBins(points, 0).words, ends: tickTexts([0.62155, 0.6216, 0.62165]), heat: name('heat-card'), parallel: name('parallel-card'),
             convergence: document.getElementById('convergence-card').textContent, plots: document.querySelectorAll('#convergence-card canvas').length,
             ink: ['rgb(240,96,42)', 'rgb(10,95,160)'].map(inkOn), worst: document.getElementById('worst').textContent};)js");
   EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value.at("whole"), nlohmann::json::array({1})) << "a flight has a whole number";
+  EXPECT_GE(page.value.at("rises"), 2) << "one tick gives no scale";
+  EXPECT_EQ(page.value.at("counts"), nlohmann::json::array({"1 flight", "0 flights"}));
+  EXPECT_EQ(page.value.at("group"), "wind.speed=1.071");
   EXPECT_GE(page.value.at("ticks"), 2);
   EXPECT_GT(page.value.at("left"), 62) << "room for long numbers next to the name";
   EXPECT_EQ(page.value.at("levels"), nlohmann::json::parse(R"(["1.4997", "1.5"])"));
@@ -94,10 +102,12 @@ TEST(CampaignInBrowser, KeepsGoalsAndTipsInsideANarrowWindow) {
     const {map} = new PathsView(host, make('select'), paths, table, {choose: () => {}});
     const box = map.frame, [x, y] = [map.x(34), map.y(64)];
     map.showTip(10, 10, ['a_long_name_of_a_flight'.repeat(20), 'in the whole 5.0 s the module reported cruise and commanded 3.0 m/s']);
-    return {inside: x <= box.x + box.width && y >= box.y, tip: map.tip.offsetWidth <= host.clientWidth, wide: document.documentElement.scrollWidth};)js",
+    addFact(document.querySelector('#claims-card dl'), 'collision: better (candidate against base)', 'undecided: more seeds may be added');
+    document.getElementById('head').append(make('p', 'fail', 'Failures injected by the scenario: 20 s to 22 s: camera.front black; ' + 'a'.repeat(80)));
+    return {facts: document.querySelector('#claims-card dd:last-child').clientWidth > 200, inside: x <= box.x + box.width && y >= box.y, tip: map.tip.offsetWidth <= host.clientWidth, wide: document.documentElement.scrollWidth};)js",
                                400);
   EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_EQ(page.value, nlohmann::json::parse(R"({"inside": true, "tip": true, "wide": 400})"));
+  EXPECT_EQ(page.value, nlohmann::json::parse(R"({"facts": true, "inside": true, "tip": true, "wide": 400})"));
 }
 
 TEST(ReportInBrowser, NamesTheObstacleOfAPassedCheckAndMetricsOfTheModule) {
@@ -106,15 +116,36 @@ TEST(ReportInBrowser, NamesTheObstacleOfAPassedCheckAndMetricsOfTheModule) {
   Flight flight = fake_flight(10.0, 1);
   const ClosestApproach& closest = flight.result.closest_obstacle = {.distance_m = 1.5, .t_s = 3.0, .what = "tree"};
   flight.result.checks = {{"no_collision", true, closest.distance_m, 0.0, "m", ">", closest.t_s}};
-  flight.result.metrics = {{.name = "module.map_margin", .value = 2.0, .unit = "m"}};
-  write_result_files(run.path(), {.scenario = "one", .scenario_yaml = run.yaml()}, flight);
+  flight.result.metrics = {{.name = "module.map_margin", .value = 2.0, .unit = "m"},
+                           {.name = "module.least_goal_distance_m", .value = 2.0, .unit = "m"},
+                           {.name = "jerk_rms", .value = 2.0, .unit = "m/s^3"}};
+  write_result_files(run.path(),
+                     {.scenario = "one",
+                      .command_line = "hedgehop run configs/andert2007_control.yaml --set duration=15 --renderer tiles",
+                      .scenario_yaml = run.yaml()},
+                     flight);
   write_report(run.path(), read_run(run.path()));
   const PageVisit page = visit(run.path() / "report.html", R"js(
-    return [document.querySelector('.badge').textContent, document.querySelector('#checks').textContent, document.querySelector('#details').textContent];)js");
+    const words = [...document.querySelectorAll('.command .whole')].filter((span) => span.offsetHeight > 24 && span.textContent.length < 20);
+    return [document.querySelector('.badge').textContent, document.querySelector('#checks').textContent, document.querySelector('#details').textContent,
+            wordsOf('off_course_at_end_m', 'm'), document.querySelector('.command code').textContent, document.querySelectorAll('.command .whole').length,
+            words.length, document.documentElement.scrollWidth,
+            seriesLooks(['left', '', 'rear'].flatMap((role) => ['x', 'x, other run'].map((label) => ({label, role})))).map(({color}) => color)];)js",
+                               400);
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.value[0].get<std::string>(), HasSubstr("the check holds"));
   EXPECT_THAT(page.value[1].get<std::string>(), HasSubstr("no collision (tree)"));
   EXPECT_THAT(page.value[2].get<std::string>(), HasSubstr("map margin, reported by the module"));
+  EXPECT_THAT(page.value[2].get<std::string>(), HasSubstr("minimum goal distance, reported by the module"));
+  EXPECT_THAT(page.value[2].get<std::string>(), HasSubstr("2 m/s³"));
+  EXPECT_EQ(page.value[3], "off course at end") << "the unit is next to the value";
+  const auto command = page.value[4].get<std::string>();
+  EXPECT_EQ(page.value[5], 1 + std::ranges::count(command, ' ')) << "each word of the command stays in one line";
+  EXPECT_EQ(page.value[6], 0);
+  EXPECT_EQ(page.value[7], 400);
+  const auto colors = page.value[8].get<std::vector<std::string>>();
+  for (const size_t i : {0U, 2U, 4U}) EXPECT_EQ(colors[i], colors[i + 1]) << "a signal has one color in both runs";
+  EXPECT_NE(colors[0], colors[4]);
 }
 
 TEST(TrimInBrowser, SurroundsASingleSpeedAndIgnoresRoundingErrors) {

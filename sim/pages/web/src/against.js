@@ -16,7 +16,7 @@ class AgainstView {
     this.changed = both.filter((row) => this.before[row].outcome !== outcomeOf(table, row)
       || this.before[row].passed !== (table.value('passed', row) === 1));
     const fresh = table.count - both.length;
-    host.append(make('p', 'soft', `${both.length} flights in both, ${this.changed.length} with a different outcome; ` +
+    host.append(make('p', 'soft', `${countOf(both.length, 'flight')} in both, ${this.changed.length} with a different outcome; ` +
       `${fresh} only in this campaign, ${against.gone.length} only in the other.`));
     this.fillGroups(host.appendChild(make('div', 'scroll tall')), against.groups);
     const pair = host.appendChild(make('div', 'pair halves'));

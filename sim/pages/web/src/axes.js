@@ -3,7 +3,7 @@
 
 const axesMargin = {left: 62, right: 14, top: 12, bottom: 44};
 
-/** An axis of numbers. */
+/** An axis of numbers. If `whole` is set in the result, only whole numbers have ticks. */
 function numberAxis(label, values) {
   let [low, high] = finiteRange(values);
   if (low === high) [low, high] = [low - 0.5, high + 0.5];
@@ -93,7 +93,7 @@ class Axes {
       const every = Math.max(1, Math.ceil((axis.ticks.length - 1) * spacing / pixels));
       return axis.ticks.filter((tick, i) => i % every === 0);
     }
-    const {values} = niceTicks(axis.low, axis.high, Math.max(2, pixels / 70)), texts = tickTexts(values);
+    const {values} = niceTicks(axis.low, axis.high, axis.whole ? Math.min(pixels / 70, axis.high - axis.low) : Math.max(2, pixels / (axis === this.yAxis ? 45 : 70))), texts = tickTexts(values);
     return values.map((value, i) => ({value, text: texts[i]}));
   }
 

@@ -8,7 +8,7 @@ const failureWords = {failed: 'no result', missing: 'not flown', no_collision: '
 
 /** A button with the name of a flight that selects it. */
 function flightButton(table, row, on) {
-  const button = make('button', 'name', table.value('id', row));
+  const button = breakable('button', 'name', table.value('id', row));
   button.title = table.value('id', row);
   button.addEventListener('click', () => on.choose(row));
   return button;
@@ -27,7 +27,7 @@ function campaignVerdict(data, table) {
   const more = [counts, data.controls.length ? 'without the control' : ''].filter(Boolean).join('; ');
   if (claims.length) {
     const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
-    return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: claims.map(({rule}) => rule).join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
+    return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: [...new Set(claims.map(({rule}) => rule))].join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
   }
   if (all.no_checks === all.flights) return {words: 'No checks', more: 'no checks defined', look: ''};
   const failed = all.flights - all.passed - all.no_checks;
@@ -44,7 +44,7 @@ function fillHead(host, data, table) {
   host.append(make('h1', '', data.name));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
   const control = data.controls.reduce((sum, group) => sum + table.rowsOf(group).length, 0), ofControl = control ? `, ${control} of them of the control` : '';
-  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${table.count} flights${ofControl}; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
+  host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${countOf(table.count, 'flight')}${ofControl}; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
   if (data.truth_used) host.append(make('p', 'bad-text', data.truth_used));
   const tiles = host.appendChild(make('div', 'tiles')), all = data.groups[0];
   const tile = (name, value, more) => {
@@ -58,10 +58,10 @@ function fillHead(host, data, table) {
   if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search for failures; they give no success rate');
   else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % interval ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
-  tile('collided', String(all.collided), `of ${all.flights} flights`);
+  tile('collided', String(all.collided), `of ${countOf(all.flights, 'flight')}`);
   const ends = [[all.reached, 'reached'], [completed, 'completed'], [timeout, 'timeout'], [all.collided, 'collided'], [all.broken, 'fault or no result'], [all.missing, 'missing']];
   const met = ends.filter(([count]) => count > 0);
-  tile(completed ? 'reached or completed' : 'reached', String(all.reached + completed), `${met.map(([count, word]) => `${count} ${word}`).join(' + ')} = ${all.flights} flights`);
+  tile(completed ? 'reached or completed' : 'reached', String(all.reached + completed), `${met.map(([count, word]) => `${count} ${word}`).join(' + ')} = ${countOf(all.flights, 'flight')}`);
   tile('minimum clearance', meters(all.min_clearance_m), `to obstacles; median over flights ${meters(all.median_clearance_m)}`);
   tile('median flight time', fixed(all.median_time_s, 1) + ' s', 'of all flights flown');
 }
@@ -78,7 +78,7 @@ function fillModuleTiles(tile, board) {
   for (const {name, control, passed, flights, collided, worlds, low, high} of totals) {
     const title = name + (control ? ' (control)' : '');
     if (!flights) tile(title, '–', 'no flight with checks');
-    else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collided} collided; ${worlds} world${worlds === 1 ? '' : 's'}`);
+    else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collided} collided; ${countOf(worlds, 'world')}`);
   }
 }
 
@@ -93,10 +93,11 @@ function fillGroups(host, data, table) {
     ['median of minimum clearance, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const [i, g] of groups.entries()) {
-    const done = completed(g, i), row = addRow(body, [[data.sweep ? g.group.replace(/^point \S+ /, '') : g.group, ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
+    const done = completed(g, i), row = addRow(body, [['', ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
       [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
       ...[g.reached, done, g.collided, g.timeout - done, g.broken, g.missing].map((n) => [String(n), 'number']),
       [fixed(g.min_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
+    row.firstChild.append(breakable('span', '', groupWords(g.group)));
     const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
     span.style.left = 100 * g.low + '%';
     span.style.width = 100 * (g.high - g.low) + '%';
@@ -185,7 +186,7 @@ function main() {
   const data = JSON.parse(document.getElementById('data').textContent), table = new FlightTable(data);
   const host = (id) => document.getElementById(id);
   fillHead(host('head'), data, table);
-    fillGroups(host('groups'), data, table);
+  fillGroups(host('groups'), data, table);
   if (data.search) {
     host('groups-card').remove();
     host('claims-card').remove();
@@ -213,6 +214,7 @@ function main() {
   const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
   const flightPlots = data.sweep ? [] : [new SuccessMap(host('success'), data, table, on), new Scatter(host('scatter'), data, table, on)];
   if (data.sweep) host('success-card').parentElement.remove();
+  else host('pareto-card').parentElement.remove();
   const sweep = data.sweep ? new SweepSections(host, data, table, on) : null;
   const against = new AgainstView(host('against-card'), data, table, on);
   const search = new SearchView(host('search-card'), data, table, on);
@@ -223,7 +225,7 @@ function main() {
   filter.placeholder = 'words, or comparisons: ' + example.join(' ');
   const update = () => {
     const {terms, fault} = parseFilter(table, filter.value), rows = filteredRows(table, terms);
-    host('filter-note').textContent = fault || `${rows.length} of ${table.count} flights, in the table and in all plots`;
+    host('filter-note').textContent = fault || `${rows.length} of ${countOf(table.count, 'flight')}, in the table and in all plots`;
     host('filter-note').className = fault ? 'bad-text' : 'soft';
     for (const view of [flights, paths, ...flightPlots]) view.setRows(rows);
     fillWorst(host('worst'), data, table, rows, on);

@@ -3,7 +3,7 @@
 
 /** Adds a row to the card: a name and its paragraphs. */
 function addFact(host, name, words, className = '') {
-  host.append(make('dt', '', name));
+  host.append(breakable('dt', '', name));
   const cell = host.appendChild(make('dd'));
   for (const text of [].concat(words)) cell.append(make('p', className, text));
 }
@@ -12,7 +12,7 @@ function countWords(counts) {
   const parts = [`${counts.planned} planned`, `${counts.counted} counted`, `${counts.passed} passed`,
     `${counts.failed_a_check} failed a check`, `${counts.broken} with a fault or no result (these count as failures)`, `${counts.missing} missing`];
   if (counts.no_checks) parts.push(`${counts.no_checks} without checks`);
-  const left = counts.discarded ? `${counts.discarded} flights after the stop are not counted; no other flight was excluded.`
+  const left = counts.discarded ? `${countOf(counts.discarded, 'flight')} after the stop ${counts.discarded === 1 ? 'is' : 'are'} not counted; no other flight was excluded.`
     : 'No completed flight was excluded.';
   return `${parts.join(', ')}. ${left}`;
 }
@@ -30,7 +30,8 @@ function methodWords(claims) {
 
 /** Returns the upper bound of the collision rate after n flights without a collision. */
 function boundWithoutCollision({flights, three_over_n: three, limit}) {
-  return `0 of ${flights} flights: upper 95 % bound ${short(100 * limit, 3)} % (rule of three: 3/${flights} = ${short(100 * three, 3)} %). A bound of 1 % requires 299 flights without a collision, 0.1 % requires 2,995.`;
+  const rule = flights < 30 ? '' : ` (rule of three: 3/${flights} = ${short(100 * three, 3)} %)`;  // the rule is for many flights
+  return `0 of ${countOf(flights, 'flight')}: upper 95 % bound ${short(100 * limit, 3)} %${rule}. A bound of 1 % requires 299 flights without a collision, 0.1 % requires 2,995.`;
 }
 
 function seedWords(conduct) {

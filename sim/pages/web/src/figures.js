@@ -38,12 +38,14 @@ function fixed(value, decimals) {
 }
 /** Returns a text of the simulator with quotation marks around names. */
 function quoted(text) { return text.replace(/`([^`]*)`/g, '“$1”'); }
+/** Returns a unit with raised powers: "m/s³". */
+function unitWords(unit) { return unit.replace('^2', '²').replace('^3', '³'); }
 /** Returns a number with its unit; a small time in a smaller unit: "0.25 µs", not "0.00025 ms". */
 function measured(value, unit, figures = 4) {
   const units = ['s', 'ms', 'µs', 'ns'];
   let i = units.indexOf(unit);
   if (value && i >= 0) for (; Math.abs(value) < 0.01 && i < units.length - 1; ++i) value *= 1000;
-  return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unit) : '');
+  return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unitWords(unit)) : '');
 }
 function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 
@@ -128,6 +130,28 @@ function onChoose(element, action) {
 
 /** Returns the end of a name in this unit, such as "_mps". */
 function unitSuffix(unit) { return '_' + unit.replace('m/s', 'mps'); }
+/** Returns a count with its noun: "1 flight", "2 flights". */
+function countOf(count, noun) { return `${count} ${noun}${count === 1 ? '' : 's'}`; }
+/** Returns the name of a group without the number of a sweep's point, and its values rounded. */
+function groupWords(group) {
+  return group.replace(/^point \S+ (?=.*=)/, '').replace(/\d+\.\d{5,}/g, (digits) => short(Number(digits)));
+}
+/** Returns an element whose words break only if they are longer than a line, then after dots, underscores and slashes. */
+function breakable(tag, className, text) {
+  const element = make(tag, className);
+  text.split(' ').forEach((word, i) => {
+    element.append(i ? ' ' : '');
+    const whole = element.appendChild(make('span', 'whole'));
+    for (const part of word.split(/(?<=[_/]|\.(?!\d))/)) whole.append(part, make('wbr'));
+  });
+  return element;
+}
+/** Returns the words of a check or metric. A name without its unit, because the unit is next to the value. */
+function wordsOf(name, unit) {
+  const words = unit && name.endsWith(unitSuffix(unit)) ? name.slice(0, -unitSuffix(unit).length) : name;
+  return words.replace(/^(module\.)?least_/, '$1minimum_').replace(/^(module\.)?most_/, '$1maximum_')
+    .replace(/^module\.(.*)/, '$1, reported by the module').replaceAll('_', ' ');
+}
 /** Name and unit of a column. A name that ends in its unit needs no other. */
 function columnLabel({name, unit}) { return !unit || name.endsWith(unitSuffix(unit)) ? name : `${name}, ${unit}`; }
 
@@ -150,7 +174,7 @@ function copyButton(text) {
 /** A command line with a button that copies it. */
 function addCommand(host, text) {
   const command = host.appendChild(make('div', 'command'));
-  command.append(make('code', '', text), copyButton(text));
+  command.append(breakable('code', '', text), copyButton(text));
 }
 
 /** Returns the failures of the scenario: {from_s, to_s, text} of result.failures, such as "20 s to 22 s: camera.front black". */

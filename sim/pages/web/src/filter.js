@@ -4,7 +4,7 @@
 /** The table of a campaign: columns by name, and the verdict on each flight. */
 class FlightTable {
   constructor(data) {
-    this.columns = new Map(data.columns.map((column) => [column.name, column]));
+    this.columns = new Map(data.columns.map((column) => [column.name, {...column, unit: column.unit && unitWords(column.unit)}]));
     this.count = this.columns.get('id').values.length;
     this.why = data.why.map(quoted);
     this.failed = data.failed;

@@ -43,7 +43,7 @@ class FlightsView {
     const sorted = this.sort ? sortedRows(this.rows, this.table.columns.get(this.sort), this.falling) : this.rows;
     const element = make('table'), head = element.appendChild(make('thead')).appendChild(make('tr'));
     for (const column of columns) {
-      const th = head.appendChild(make('th', 'sorts ' + (column.is_text ? '' : 'number'), columnLabel(column)));
+      const th = head.appendChild(make('th', 'sorts ' + (column.is_text || column.name === 'passed' ? '' : 'number'), columnLabel(column)));
       th.dataset.column = column.name;
       if (this.sort === column.name) {
         th.append(make('b', '', this.falling ? ' ▼' : ' ▲'));
@@ -77,10 +77,10 @@ class FlightsView {
       const small = value && Math.abs(value) < 0.01 && ['s', 'ms'].includes(column.unit);
       return make('td', 'number', small ? measured(value, column.unit) : Number.isInteger(value) ? String(value).replace('-', '−') : short(value));
     }
-    const cell = make('td', '', column.name === 'id' && this.data.report[row] ? '' : value);
+    const linked = column.name === 'id' && this.data.report[row], cell = linked ? make('td') : breakable('td', '', value);
     cell.title = value;
-    if (column.name === 'id' && this.data.report[row]) {
-      const link = cell.appendChild(make('a', '', value));
+    if (linked) {
+      const link = cell.appendChild(breakable('a', '', value));
       link.href = flightLink(this.data, this.table, row, 'report.html');
     }
     return cell;

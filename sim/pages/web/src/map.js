@@ -258,6 +258,12 @@ class MapView {
     };
     if (levels.has('at_altitude')) entry('solid', 'obstacle at flight altitude');
     if (levels.has('below')) entry('low', 'obstacle below the flight');
+    const {frame} = this, [n0, n1, e0, e1] = this.plan.bounds, crosses = (value, from, size) => value > from && value < from + size;
+    if ([e0, e1].some((e) => crosses(this.x(e), frame.x, frame.width)) || [n0, n1].some((n) => crosses(this.y(n), frame.y, frame.height))) {
+      const item = this.key.appendChild(make('span'));
+      item.appendChild(make('i')).style.border = `1px dashed ${themeColor('solid-edge')}`;
+      item.append('flight area');
+    }
     this.key.append(make('span', '', 'north up, to scale'));
   }
 

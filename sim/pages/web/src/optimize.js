@@ -12,7 +12,7 @@ class ConvergenceView {
     Object.assign(this, {points, minimize});
     const failed = this.costs.filter((cost) => cost === null).length;
     const seeds = points.points[0].rows.length, tried = points.points.length;
-    host.append(make('p', 'soft', `Minimized: mean of ${minimize} over ${seeds} seed${seeds === 1 ? '' : 's'}; ${tried} point${tried === 1 ? '' : 's'} tried` +
+    host.append(make('p', 'soft', `Minimized: mean of ${minimize} over ${countOf(seeds, 'seed')}; ${countOf(tried, 'point')} tried` +
       (failed ? `, ${failed} of them with a failed flight, which costs ${failure.toLocaleString('en-US')}${failed < tried ? ' (crosses)' : ''}` : '') + '.'));
     if (failed === tried) {
       host.append(make('p', 'missing', 'Every point has a failed flight, so no cost can be drawn.'));

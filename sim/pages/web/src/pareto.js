@@ -94,6 +94,6 @@ class ParetoView {
 /** Lines of a tip: the point's values, and the means of some columns. */
 function pointLines(points, i, names) {
   const {passed, rows} = points.points[i];
-  return [`${passed} of ${rows.length} flights passed`, ...points.paths.map((path, k) => `${path} = ${valueWords(points.points[i].values[k])}`),
+  return [`${passed} of ${countOf(rows.length, 'flight')} passed`, ...points.paths.map((path, k) => `${path} = ${valueWords(points.points[i].values[k])}`),
     ...new Set(names.map((name) => `${name}: ${meanWords(points.of(name)[i], points.unit(name))}`))];
 }

@@ -48,7 +48,7 @@ class RankingView {
     const best = this.best, {passed, rows} = points.points[best];
     this.answer.replaceChildren(make('p', 'best', points.words(best)),
       make('p', 'soft', `mean of ${choice.column} ${meanWords(points.of(choice.column)[best], points.unit(choice.column))} over ` +
-        `${rows.length} seed${rows.length === 1 ? '' : 's'}; ${passed} of ${rows.length} flights passed; best of ${points.points.length} points. It is flown by`));
+        `${countOf(rows.length, 'seed')}; ${passed} of ${countOf(rows.length, 'flight')} passed; best of ${countOf(points.points.length, 'point')}. It is flown by`));
     addCommand(this.answer, points.command(best));
     this.drawList();
   }

@@ -76,7 +76,7 @@ function fillChecks(host, {checks, closest_obstacle, closest_ground}) {
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
   for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
     const measure = (v) => measured(v, unit);
-    addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [name.replaceAll('_', ' '), ''],
+    addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [wordsOf(name, unit), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);
     const closest = [closest_obstacle, closest_ground].find((place) => place?.distance_m === value && place.t_s === t_s);
@@ -104,8 +104,7 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
     ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]], first);
   const metrics = Object.entries(result.metrics).map(([name, value]) => {
     const unit = result.metric_units?.[name] ?? '';
-    const shown = unit && name.endsWith(unitSuffix(unit)) ? name.slice(0, -unitSuffix(unit).length) : name;
-    return [shown.replace(/^module\.(.*)/, '$1, reported by the module').replaceAll('_', ' '), measured(value, unit)];
+    return [wordsOf(name, unit), measured(value, unit)];
   });
   const half = Math.max(8, Math.ceil(metrics.length / 2));
   for (const rows of [metrics.slice(0, half), metrics.slice(half)]) if (rows.length) add('metric', rows);

@@ -47,7 +47,7 @@ function addRows(host, rows) {
   const table = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
   const line = (cells, tag) => {
     const row = table.appendChild(make('tr'));
-    for (const [text, className] of cells) row.append(make(tag, className, text));
+    for (const [text, className] of cells) row.append(make(tag, className, text === '-' ? '–' : text));
     return row;
   };
   line(['claim', 'paper', 'required', 'published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: required, flown, faulted, with figure',

@@ -40,9 +40,9 @@ class SortedTable {
       const line = body.appendChild(make('tr'));
       this.columns.forEach(({key, number, words, look}, i) => {
         const text = words ? words(row) : row[key] === null || row[key] === '' ? '–' : String(row[key]);
-        const cell = line.appendChild(make('td', (number ? 'number' : '') + (look ? ' ' + look(row) : ''), i || !row.report ? text : ''));
-        if (i || !row.report) return;
-        const link = cell.appendChild(make('a', '', text));
+        const cell = line.appendChild(make('td', (number ? 'number' : '') + (look ? ' ' + look(row) : '')));
+        if (i || !row.report) return cell.append(breakable('span', '', text));
+        const link = cell.appendChild(breakable('a', '', text));
         link.href = linkTo(row.folder, 'report.html');
       });
     }
@@ -67,7 +67,7 @@ function main() {
     {key: 'outcome', label: 'outcome'}, {key: 'verdict', label: 'checks', look: verdictLook},
     {key: 'flight_time_s', label: 'time, s', number: true, words: (r) => fixed(r.flight_time_s, 1)},
     {key: 'min_obstacle_clearance_m', label: 'clearance, m', number: true, words: (r) => fixed(r.min_obstacle_clearance_m, 2)},
-    {key: 'date', label: 'date, UTC'}, {key: 'build', label: 'build'},
+    {key: 'date', label: 'date, UTC'}, {key: 'build', label: 'build', words: (r) => r.build.slice(0, 8)},
     {key: 'tags', label: 'tags', words: (r) => r.tags.join(', ') || '–'}, {key: 'notes', label: 'notes', look: () => 'notes'}];
   const table = new SortedTable(host('runs'), columns, [], 'date', true);
   const inside = host('inside').querySelector('input'), loose = data.runs.filter(({campaign}) => !campaign);

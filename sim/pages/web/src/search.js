@@ -10,14 +10,14 @@ class SearchView {
     Object.assign(this, {table, on, robustness: table.columns.get('robustness').values});
     const kept = search.counterexamples, confirmed = kept.filter((c) => c.repeats && c.confirmed).length;
     host.append(make('h2', '', 'Search for failures'));
-    host.append(make('p', 'soft', `${search.method}, seed ${search.seed}: ${search.flights} of ${search.budget} flights, ${search.unknowns} unknowns, ` +
-      `${search.infeasible_points} points not flown because of a violated constraint. ` +
-      (search.failures ? `${search.failing_flights} points fail, the first after ${search.flights_to_first} flights; ${search.failures} distinct failures` +
+    host.append(make('p', 'soft', `${search.method}, seed ${search.seed}: ${search.flights} of ${countOf(search.budget, 'flight')}, ${countOf(search.unknowns, 'unknown')}, ` +
+      `${countOf(search.infeasible_points, 'point')} not flown because of a violated constraint. ` +
+      (search.failures ? `${countOf(search.failing_flights, 'point')} ${search.failing_flights === 1 ? 'fails' : 'fail'}, the first after ${countOf(search.flights_to_first, 'flight')}; ${countOf(search.failures, 'distinct failure')}` +
         (search.suite ? '.' : `, ${confirmed} of ${kept.length} confirmed.`) : 'No failure was found. This does not prove safety.')));
     this.axes = new Axes(host.appendChild(make('div')), 240, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
-    this.axes.set(numberAxis('flight', [1, this.robustness.length]), numberAxis(search.suite ? 'distance beyond 1.5 m, or negative score' : 'minimum robustness of all checks', [...this.robustness, 0]));
+    this.axes.set({...numberAxis('flight', [1, this.robustness.length]), whole: true}, numberAxis(search.suite ? 'distance beyond 1.5 m, or negative score' : 'minimum robustness of all checks', [...this.robustness, 0]));
     host.append(make('div', 'plan-key', `line: minimum so far; below 0 ${search.suite ? 'a flight is unsafe' : 'a check fails'}`));
     if (search.suite) this.fillSuite(host, search.suite);
     const list = host.appendChild(make('div', 'pair halves'));
@@ -85,8 +85,9 @@ class SearchView {
   /** Adds a minimized failure: its path over the scene, and links to its files. */
   fillFailure(host, one, paths, i) {
     host.append(make('h3', '', one.name));
-    host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, before minimization ${short(one.robustness)}; ${one.items} of ${one.items_before} boxes, ` +
-      `moving obstacles and failures remain; ${short(one.duration_s)} s; ${one.shrinking_flights} flights for the minimization`));
+    host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, before minimization ${short(one.robustness)}; ` +
+      (one.items_before ? `${one.items} of ${one.items_before} boxes, moving obstacles and failures remain; ` : '') +
+      `${short(one.duration_s)} s; ${countOf(one.shrinking_flights, 'flight')} for the minimization`));
     const verdict = one.repeats && one.confirmed;
     host.append(make('p', verdict ? 'pass' : 'fail', verdict ? 'confirmed: a repeated flight is equal' : 'NOT CONFIRMED: a repeated flight differs'));
     const links = host.appendChild(make('p'));

@@ -9,7 +9,7 @@ function columnBins(column, rows) {
   if (column.is_text || values.length <= mostCategories) {
     values.sort((a, b) => a < b ? -1 : a > b ? 1 : 0);
     const index = new Map(values.map((v, i) => [v, i]));
-    const figures = column.is_text || figuresFor(values), words = values.map((v) => column.is_text ? v : short(v, figures));
+    const figures = column.is_text || figuresFor(values), words = values.map((v) => column.name === 'group' ? groupWords(v) : column.is_text ? v : short(v, figures));
     return {axis: wordAxis(columnLabel(column), words), words, of: (row) => index.get(column.values[row]) ?? -1};
   }
   const [low, high] = finiteRange(values), step = (high - low) / numberBins;
