@@ -60,7 +60,8 @@ std::vector<LoggedCamera> logged_cameras(const Scenario& scenario, const std::ve
   for (const CameraConfig& camera : chosen) {
     if (!is_topic_word(camera.role)) {
       throw InputError(
-          fmt::format("camera '{}': a role in a log has letters, digits and underscores only", camera.role));
+          fmt::format("camera '{}': a role in a log has letters, digits and underscores only, and starts with no digit",
+                      camera.role));
     }
     cameras.push_back(build_part("rig", [&] { return logged(camera, scenario.avionics.imu); }));
   }

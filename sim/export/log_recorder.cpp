@@ -66,8 +66,10 @@ void LogRecorder::on_start(const FlightStart& start) {
   std::ranges::copy(start.control_names, one_row_.control_names.begin());
   for (const NamedUnit& signal : one_row_.signals) {
     if (!is_topic_word(signal.name)) {
-      throw InputError(fmt::format(
-          "signal '{}' of the module: a name in a log has letters, digits and underscores only", signal.name));
+      throw InputError(
+          fmt::format("signal '{}' of the module: a name in a log has letters, digits and underscores only, and starts "
+                      "with no digit",
+                      signal.name));
     }
   }
   std::filesystem::create_directories(folder_);

@@ -287,12 +287,16 @@ class Logs(unittest.TestCase):
         bad = self.folder / "bad.yaml"
         bad.write_text(SCENARIO.read_text().replace("../../../../configs", f"{SOURCE}/configs")
                        .replace("role: belly", 'role: "down looking"'))
-        cases = ((bad, "--camera", "down looking"), (SCENARIO, "--camera", "up"))
-        for scenario, *options in cases:
+        digit = self.folder / "digit.yaml"
+        digit.write_text(bad.read_text().replace('role: "down looking"', "role: 2nd"))
+        cases = ((bad, "has letters, digits", "--camera", "down looking"), (digit, "starts with no digit", "--camera", "2nd"),
+                 (SCENARIO, "not in the rig", "--camera", "up"))
+        for scenario, words, *options in cases:
             out = self.folder / "refused"
             done = hedgehop("export", scenario, "--format", "rosbag2", "--out", out, *options)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(words, done.stderr)
             self.assertFalse(out.exists())
 
 
