@@ -43,7 +43,8 @@ void add_layers(CLI::App& command, ScenarioOptions& scenario) {
                                         })
       ->check(CLI::IsMember(names))
       ->excludes(renderer)
-      ->group("");  // hidden
+      ->group("");                                        // hidden
+  renderer->remove_excludes(command.get_option("--gl"));  // one direction suffices; the help names no hidden option
 }
 
 void add_scenario(CLI::App& command, ScenarioOptions& scenario) {

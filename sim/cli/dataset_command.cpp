@@ -96,7 +96,9 @@ void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions
   command->add_option("--seeds", data.seeds, "seeds of the worlds of each scenario, such as 1:10; default 1");
   command->add_option("--poses", data.poses,
                       "random (the default), or a file: trajectory.csv of a run, CSV, EuRoC, TUM or KITTI");
-  command->add_option("--pose-of", data.pose_of, "role of the camera whose poses the file has; default the body")
+  command
+      ->add_option("--pose-of", data.pose_of,
+                   "role of the camera whose poses the file has; default the IMU, or for trajectory.csv the body")
       ->type_name("NAME");
   command->add_option("--camera", data.camera, "role of the camera; default the first with images")->type_name("NAME");
   command->add_option("--images", data.images,

@@ -16,6 +16,7 @@ namespace hedgehop::sim::cli {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class RendererOption : public testing::Test {
@@ -64,6 +65,7 @@ TEST_F(RendererOption, FormerOptionStillWorksAndPrintsItsNewName) {
   EXPECT_THAT(printed_by_run("--gl tiles"), StartsWith("--gl is deprecated: use --renderer\n"));
   EXPECT_THAT(resolved("--gl tiles"), HasSubstr("renderer: tiles"));
   EXPECT_EQ(ask("render --info --gl tiles --renderer osmesa").status, kBadInput);
+  EXPECT_THAT(ask("render --help").text, Not(HasSubstr("Excludes: \n")));  // without the name of the former option
 }
 
 TEST_F(RendererOption, RejectsUnknownNamesAndFormerKeysInOneLine) {
