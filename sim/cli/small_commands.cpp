@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <optional>
-#include <stdexcept>
 #include <variant>
 
 #include "sim/batch/campaign_file.h"
@@ -12,6 +10,7 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/config/outline_texts.h"
+#include "sim/config/whole_file.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
 #include "sim/pages/replay.h"
@@ -100,10 +99,7 @@ int calibration(const CalibrationOptions& options) {
     fmt::print("{}", text);
     return 0;
   }
-  std::ofstream file(options.out, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: cannot be written", options.out.string()));
+  write_file_whole(options.out, text);
   fmt::print("written: {}\n", options.out.string());
   return 0;
 }
