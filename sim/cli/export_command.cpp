@@ -8,7 +8,9 @@
 #include "sim/cli/progress.h"
 #include "sim/config/input_error.h"
 #include "sim/export/export.h"
+#include "sim/flight/build.h"
 #include "sim/record/run_record.h"
+#include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -30,26 +32,40 @@ ChunkCompression compression_of(const std::string& name) {
   return name == "lz4" ? ChunkCompression::lz4 : ChunkCompression::zstd;
 }
 
-/// Of the trajectory that the run left.
-std::string hash_of_run(const std::filesystem::path& folder) {
+/// Returns the result that the run left.
+RunResult result_of_run(const std::filesystem::path& folder) {
   for (const char* const name : {"scenario.yaml", "result.json"}) {
     if (!std::filesystem::exists(folder / name)) {
       throw InputError(fmt::format("{}: no {}: not the folder of a run", folder.string(), name));
     }
   }
   try {
-    return read_result(folder / "result.json").flight.trajectory_hash;
+    return read_result(folder / "result.json");
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("{}: no whole run: {}", folder.string(), error.what()));
   }
+}
+
+/// Returns why a flight may differ from the run. @param inputs  of the flight of the run's resolved scenario.
+std::string cause_of_difference(const RunInfo& run, const Inputs& inputs) {
+  for (const auto& [file, hash] : inputs) {
+    const std::filesystem::path name = std::filesystem::path(file).filename();
+    if (name == "scenario.yaml") continue;  // the resolved scenario, which is no input of the run
+    for (const auto& [run_file, run_hash] : run.inputs) {
+      if (std::filesystem::path(run_file).filename() == name && run_hash != hash)
+        return run_file + " has changed since";
+    }
+  }
+  return run.build == build_identity() ? "another kind of processor" : "another build";
 }
 
 }  // namespace
 
 int export_run(const ExportOptions& options) {
   const bool is_run = !std::filesystem::is_regular_file(options.source);
-  const std::string hash = is_run ? hash_of_run(options.source) : "";
-  const Scenario scenario = load_scenario(is_run ? options.source / "scenario.yaml" : options.source);
+  const RunResult run = is_run ? result_of_run(options.source) : RunResult();
+  const LoadedScenario loaded = load_flight(is_run ? options.source / "scenario.yaml" : options.source);
+  const Scenario& scenario = loaded.scenario;
   const std::filesystem::path folder =
       is_run ? options.source : std::filesystem::path("out") / fmt::format("{}-seed{}", scenario.name, scenario.seed);
   const ExportRequest request{format_of(options.format),
@@ -69,11 +85,11 @@ int export_run(const ExportOptions& options) {
       [&](double t_s, double duration_s, double goal_distance_m) { progress.show(t_s, duration_s, goal_distance_m); },
       is_run ? options.source : std::filesystem::path());
   progress.close();
-  if (is_run && flight.result.trajectory_hash != hash) {
-    notice(
-        fmt::format("warning: the re-simulated trajectory differs from the run's ({} instead of {}): another build or "
-                    "another kind of processor; the data agree with each other\n",
-                    flight.result.trajectory_hash, hash));
+  if (is_run && flight.result.trajectory_hash != run.flight.trajectory_hash) {
+    notice(fmt::format(
+        "warning: the re-simulated trajectory differs from the run's ({} instead of {}): {}; the data "
+        "agree with each other\n",
+        flight.result.trajectory_hash, run.flight.trajectory_hash, cause_of_difference(run.info, loaded.inputs)));
   }
   fmt::print("written: {} ({:.1f} s of flight)\n", request.out.string(), flight.result.flight_time_s);
   return 0;

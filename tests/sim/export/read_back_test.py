@@ -272,15 +272,18 @@ class ReadBack(unittest.TestCase):
                       self.refused(run_folder, "--format", "kitti", "--camera", "left", "--camera", "left", *other))
         self.assertFalse((self.folder / "other").exists())
 
-    def test_warns_of_a_different_trajectory(self):
+    def test_warns_of_a_different_trajectory_and_names_the_cause(self):
         result = json.loads((self.run_folder / "result.json").read_text())
-        other = self.folder / "other_run"
-        other.mkdir()
-        (other / "result.json").write_text(json.dumps({**result, "trajectory_hash": "0"}))
-        (other / "scenario.yaml").write_bytes((self.run_folder / "scenario.yaml").read_bytes())
-        done = hedgehop("export", other, "--format", "kitti", "--camera", "left")
-        self.assertEqual(done.returncode, 0)
-        self.assertIn("the re-simulated trajectory differs from the run's", done.stderr)
+        causes = {"another kind of processor": {"inputs": {"scenario.yaml": "0"}}, "another build": {"build": "0"}}
+        for number, (cause, changes) in enumerate(causes.items()):
+            other = self.folder / f"other_run_{number}"
+            other.mkdir()
+            (other / "result.json").write_text(json.dumps({**result, "trajectory_hash": "0", **changes}))
+            (other / "scenario.yaml").write_bytes((self.run_folder / "scenario.yaml").read_bytes())
+            done = hedgehop("export", other, "--format", "kitti", "--camera", "left")
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("the re-simulated trajectory differs from the run's", done.stderr)
+            self.assertIn(f": {cause}; the data agree", done.stderr)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,17 @@ class FromFile(unittest.TestCase):
         self.assertEqual(banded["metrics"]["module.lowest_m"], 2.0)
         self.assertEqual(banded["metrics"]["module.highest_m"], 60.0)
 
+    def test_an_export_names_a_module_that_has_changed_since_the_flight(self):
+        module, flown = self.folder / "changes.py", self.folder / "flown"
+        module.write_text(MODULES)
+        values = {**STRAIGHT, "avoidance": {"python": str(module), "class": "GoToGoal", "parameters": {"speed": 3}}}
+        run_program(CITY, values, flown)
+        module.write_text(MODULES + "\n\nclass GoToGoal(GoToGoal):\n    def update(self, observation):\n"
+                                    "        return hedgehop.VelocityCommand((1, 0), 10, 0)\n")
+        done = subprocess.run([PROGRAM, "export", str(flown), "--format", "ulog"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("changes.py has changed since; the data agree", done.stderr)
+
     def test_an_exception_of_a_module_ends_its_flight_with_the_places(self):
         _, result, _ = run_program(CITY, self.python("Fails"), self.folder / "fails")
         self.assertEqual(result["outcome"], "fault")
