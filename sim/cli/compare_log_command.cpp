@@ -10,6 +10,7 @@
 
 #include "sim/cli/exit_status.h"
 #include "sim/cli/log_commands.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
@@ -120,10 +121,7 @@ int compare_log(const CompareLogOptions& options) {
   } else {
     print_table(comparison);
   }
-  if (!options.plot.empty()) {
-    write_file_whole(options.plot, log_figure(comparison));
-    notice(fmt::format("{}\n", options.plot.string()));
-  }
+  if (!options.plot.empty()) write_plot(options.plot, log_figure(comparison));
   return 0;
 }
 

@@ -10,11 +10,11 @@
 
 #include "dynamics/identification/flight_identification.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/cli/vehicle_inputs.h"
 #include "sim/config/utf8.h"
-#include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/response_data.h"
 
@@ -158,8 +158,7 @@ int identify(const IdentifyOptions& options) {
         .axis = all.input.axis,
         .main_states = all.input.main_states};
     const Json data = identification_data(plot, all.found);
-    write_file_whole(options.plot, trim_page(plot.title, json_text(data)));
-    notice(fmt::format("{}\n", options.plot.string()));
+    write_plot(options.plot, trim_page(plot.title, json_text(data)));
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 
 #include "sim/cli/exit_status.h"
 #include "sim/cli/log_commands.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/config/config_outline.h"
 #include "sim/config/input_error.h"
@@ -104,9 +105,9 @@ int identify_log(const IdentifyLogOptions& options) {
     const FitPlan plan{.horizon_s = options.horizon_s, .every_s = options.every_s, .split = options.split};
     const LogFit found = fit_logs(model, options.logs, parameters, plan);
     options.json ? fmt::print("{}\n", json_text(fit_json(found, parameters), 2)) : print_fit(found, parameters);
-    if (!options.out.empty()) write_file_whole(options.out, vehicle_yaml(found.model.vehicle));
+    if (!options.out.empty()) write_named_file(options.out, vehicle_yaml(found.model.vehicle));
     if (!options.out_columns.empty()) {
-      write_file_whole(options.out_columns, yaml_text(outline_fields(found.model.columns)));
+      write_named_file(options.out_columns, yaml_text(outline_fields(found.model.columns)));
     }
     return 0;
   });

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "sim/cli/commands.h"
+#include "sim/cli/plot_file.h"
 #include "sim/config/input_error.h"
-#include "sim/config/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/obstacle_field.h"
 
@@ -42,13 +42,13 @@ int import_field(const ImportOptions& options) {
   const scenes::worlds::OpenConfig config =
       read_obstacle_field(static_cast<FieldFormat>(format), options.files, options.scale);
   const scenes::Scene scene = build_part("scene", [&] { return build_scene(config, 1); });  // the seed draws textures
-  if (!options.solids.empty()) write_file_whole(options.solids, solids_csv(scene, options.time_s));
+  if (!options.solids.empty()) write_named_file(options.solids, solids_csv(scene, options.time_s));
   const std::string text = scene_yaml(config, options.out.empty() ? "." : options.out.parent_path());
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;
   }
-  write_file_whole(options.out, text);
+  write_named_file(options.out, text);
   fmt::print("written: {}: {} static and {} moving obstacles\n", options.out.string(), scene.solids.size(),
              scene.movers.size());
   return 0;

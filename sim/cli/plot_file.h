@@ -3,6 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <string_view>
+
+#include "sim/cli/exit_status.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim::cli {
 
@@ -13,6 +17,18 @@ inline CLI::Validator written_as(const std::string& extension) {
     return found.empty() || found == extension ? "" : "'" + path + "' would be written as " + extension;
   };
   return CLI::Validator(check, "");
+}
+
+/// Writes a file that the user names. Throws as require_writable_file().
+inline void write_named_file(const std::filesystem::path& file, std::string_view text) {
+  require_writable_file(file);
+  write_file_whole(file, text);
+}
+
+/// Writes the page of a plot and prints its name to standard error.
+inline void write_plot(const std::filesystem::path& file, std::string_view page) {
+  write_named_file(file, page);
+  notice(file.string() + "\n");
 }
 
 }  // namespace hedgehop::sim::cli

@@ -10,11 +10,11 @@
 #include "dynamics/identification/test_inputs.h"
 #include "dynamics/identification/trimmed_flight.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/cli/vehicle_inputs.h"
 #include "sim/config/utf8.h"
-#include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/response_data.h"
 
@@ -156,8 +156,7 @@ int step(const StepOptions& options) {
         .axis = response.input.axis,
         .main_states = response.input.main_states};
     const Json data = step_data(plot, response.linear, response.record, response.linear_states);
-    write_file_whole(options.plot, trim_page(plot.title, json_text(data)));
-    notice(fmt::format("{}\n", options.plot.string()));
+    write_plot(options.plot, trim_page(plot.title, json_text(data)));
   }
   return 0;
 }

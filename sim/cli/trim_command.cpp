@@ -10,10 +10,10 @@
 
 #include "dynamics/steady_flight.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/config/utf8.h"
-#include "sim/config/whole_file.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/trim_data.h"
 
@@ -156,8 +156,7 @@ int trim(const TrimOptions& options) {
   print_trim(options, rows);
   if (!options.plot.empty()) {
     const Json data = trim_data(options.vehicle.stem().string(), rows, missing_mps);
-    write_file_whole(options.plot, trim_page(data["title"].get<std::string>(), json_text(data)));
-    notice(fmt::format("{}\n", options.plot.string()));
+    write_plot(options.plot, trim_page(data["title"].get<std::string>(), json_text(data)));
   }
   return 0;
 }

@@ -62,6 +62,12 @@ TEST(Trim, RefusesAFigureAsThePage) {
   EXPECT_THAT(answer.text, HasSubstr("trim.svg' would be written as .html"));
 }
 
+TEST(Trim, RefusesAPageBelowAFile) {
+  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + vehicle_file("page", "") + "/trim.html");
+  EXPECT_EQ(answer.status, kBadInput);
+  EXPECT_THAT(answer.text, HasSubstr("vehicle_commands_page.yaml: cannot write results: "));
+}
+
 TEST(Linearize, PrintsNamesOfModesUnitsAndEigenvectors) {
   const Answer answer = ask("linearize " + kVehicles + "xcell_60.yaml --speed 12");
   EXPECT_EQ(answer.status, 0);
@@ -79,8 +85,9 @@ TEST(Linearize, ReportsATrimBeyondTheStops) {
 }
 
 TEST(Step, PrintsTheFullModelNextToTheLinearOneAndWritesAPage) {
-  const std::string page = testing::TempDir() + "/vehicle_commands_step.html";
-  std::filesystem::remove(page);
+  const auto folder = std::filesystem::path(testing::TempDir()) / "vehicle_commands_step";  // missing
+  const std::string page = folder / "plots/step.html";
+  std::filesystem::remove_all(folder);
   const std::string command = "step " + kVehicles + "xcell_60.yaml --input longitudinal --size 0.2deg";
   const Answer answer = ask(command + " --duration 2 --plot " + page);
   EXPECT_EQ(answer.status, 0);
