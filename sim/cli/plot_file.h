@@ -19,9 +19,10 @@ inline CLI::Validator written_as(const std::string& extension) {
   return CLI::Validator(check, "");
 }
 
-/// Writes a file that the user names. Throws as require_writable_file().
+/// Writes a file that the user names, and before it the folder if that is missing. Throws as require_writable_file().
 inline void write_named_file(const std::filesystem::path& file, std::string_view text) {
   require_writable_file(file);
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   write_file_whole(file, text);
 }
 

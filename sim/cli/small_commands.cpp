@@ -7,10 +7,10 @@
 #include "sim/batch/flight_table.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
+#include "sim/cli/plot_file.h"
 #include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/config/outline_texts.h"
-#include "sim/config/whole_file.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
 #include "sim/pages/replay.h"
@@ -99,7 +99,7 @@ int calibration(const CalibrationOptions& options) {
     fmt::print("{}", text);
     return 0;
   }
-  write_file_whole(options.out, text);
+  write_named_file(options.out, text);
   fmt::print("written: {}\n", options.out.string());
   return 0;
 }

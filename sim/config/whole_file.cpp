@@ -29,8 +29,6 @@ namespace {
 }  // namespace
 
 void write_file_whole(const std::filesystem::path& file, std::string_view text) {
-  std::error_code ignored;  // creates the folder; if that fails, the error of the file names the cause
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
   StreamedFile out(file);
   out.write(text);
   out.close();

@@ -85,13 +85,6 @@ TEST(PendingFile, AppearsWholeAndReplacesAnEarlierFile) {
   EXPECT_THAT(names_here(), ElementsAre("table.csv"));
 }
 
-TEST(PendingFile, OfAWholeTextCreatesItsFolder) {
-  const Folder folder;
-  write_file_whole("new/tables/table.csv", "whole");
-  EXPECT_EQ(read_file_whole("new/tables/table.csv"), "whole");
-  EXPECT_THROW(write_file_whole("new/tables/table.csv/below.csv", ""), std::runtime_error);
-}
-
 TEST(PendingFile, ThatCannotReplaceAFolderIsDiscarded) {
   const Folder folder;
   fs::create_directory("table.csv");
