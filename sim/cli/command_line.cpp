@@ -104,7 +104,7 @@ void declare_render(CLI::App& app, std::function<int()>& chosen, RenderOptions& 
           {"color", "grey", "depth", "depth_mm", "depth_m", "flow", "labels", "semantic", "label_colors"}));
   auto* const out = command->add_option("-o", render.out, "output file; FILE.tiff for depth_m")->type_name("FILE.png");
   auto* const info =
-      command->add_flag("--info", render.info, "print the renderers that this machine can use, and exit");
+      command->add_flag("--info", render.info, "print every renderer, and why one is not available, and exit");
   command->callback([&, file, camera, out, info] {
     if (!*info && (!*file || !*camera || !*out)) {
       throw CLI::RequiredError("render: SCENARIO, --camera and -o (or --info)");
