@@ -21,7 +21,9 @@ using Model = CameraConfig::Model;
 
 constexpr std::string_view kFormats =
     "Kalibr's camera chain, sensor.yaml of EuRoC, camera_info of ROS, OpenCV's FileStorage with camera_matrix (or "
-    "cameraMatrix, K) and distortion_coefficients (or distCoeffs, dist_coeffs, distortion, D), or OCamCalib";
+    "cameraMatrix, K) and distortion_coefficients (or distCoeffs, dist_coeffs, distortion, D), or of a pair with M1, "
+    "D1, M2 "
+    "and D2, or OCamCalib";
 
 [[noreturn]] void refuse(const Node& node, const std::string& message) {
   throw InputError(fmt::format("{}: {}", node.position.text(), message));
@@ -243,6 +245,30 @@ CalibratedCamera read_matrix_camera(const Node& map, std::string name) {
   return camera;
 }
 
+/// Reads a pair of OpenCV's sample stereo_calib: M1 and D1 of the left camera, M2 and D2 of the right one. R and T, in
+/// m, map points of the left camera to the right one.
+std::vector<CalibratedCamera> read_pair(const Node& root) {
+  const auto camera_of = [&](const std::string& number, const std::string& role) {
+    Node map = root;
+    for (auto& entry : map.entries) {
+      if (entry.key == "M" + number) entry.key = "camera_matrix";
+      if (entry.key == "D" + number) entry.key = "distortion_coefficients";
+    }
+    return read_matrix_camera(map, role);
+  };
+  std::vector<CalibratedCamera> pair = {camera_of("1", "left"), camera_of("2", "right")};
+  const Node *const R = root.find("R"), *const T = root.find("T");
+  if (R && T) {
+    constexpr double kMaxBaselineM = 10.0;
+    const std::vector<double> rows = numbers(*R, 9, "R"), t = numbers(*T, 3, "T");
+    const double baseline_m = std::hypot(t[0], t[1], t[2]);
+    if (baseline_m > kMaxBaselineM) refuse(*T, fmt::format("T has a length of {} m; state it in meters", baseline_m));
+    pair[1].config.camera_from_previous = {rows[0], rows[1], rows[2], t[0], rows[3], rows[4], rows[5], t[1],
+                                           rows[6], rows[7], rows[8], t[2], 0.0,     0.0,     0.0,     1.0};
+  }
+  return pair;
+}
+
 bool has_matrix(const Node& map) {
   return map.kind == Node::Kind::map && find(map, {"camera_matrix", "cameraMatrix", "K", "k"});
 }
@@ -252,6 +278,7 @@ bool has_matrix(const Node& map) {
 std::vector<CalibratedCamera> parse_calibration(const std::string& text, const std::string& file) {
   const Node root = parse_calibration_text(text, file);
   if (root.kind == Node::Kind::map) {
+    if (root.find("M1") && root.find("M2")) return read_pair(root);
     if (has_matrix(root)) return {read_matrix_camera(root, "")};
     if (root.find("camera_model")) return {read_sensor(root)};
     if (std::vector<CalibratedCamera> chain = read_chain(root); !chain.empty()) return chain;
