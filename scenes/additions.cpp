@@ -128,11 +128,13 @@ SemanticClass class_of(Shape shape) {
   return shape == Shape::tree ? SemanticClass::tree : SemanticClass::pole;
 }
 
-/// Returns a mover with the table of its motion.
+/// Returns a mover with the table of its motion. Throws std::invalid_argument "movers.<k>.motion..." if the motion is
+/// not valid.
 MoverConfig loaded(const std::vector<MoverConfig>& movers, size_t k) {
   MoverConfig mover = movers[k];
   try {
     load_motion(mover.motion);
+    require_motion(mover.motion);
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument("movers." + std::to_string(k) + "." + fault.what());
   }
@@ -197,7 +199,6 @@ void add_movers(const std::vector<MoverConfig>& movers, uint64_t seed, Scene& sc
   for (size_t k = 0; k < movers.size(); ++k) {
     fields::require_bounds(movers[k], "movers." + std::to_string(k));
     const MoverConfig mover = loaded(movers, k);
-    require_motion(mover.motion);
     scene.movers.push_back(make_mover(mover, derived_seed(seed, k + 1), images));
   }
 }

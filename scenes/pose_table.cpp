@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "sim/fields/utf8_mark.h"
+
 namespace hedgehop::scenes {
 namespace {
 
@@ -75,6 +77,7 @@ PoseTable::Rates PoseTable::rates(double t_s) const {
 
 PoseTable parse_pose_table(std::string_view text) {
   std::vector<PoseRow> rows;
+  text = without_utf8_mark(text);
   int line = 0;
   while (!text.empty()) {
     std::string_view row = text.substr(0, text.find('\n'));

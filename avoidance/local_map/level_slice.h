@@ -31,9 +31,8 @@ class ClosedCells {
   /// Deletes cells at the end of their lifetime.
   void update(double t_s);
 
-  /// Calls visit(p_W) with the middle of each cell; z is the height that was flown at then.
+  /// Calls visit(p_W) with the center of each cell; z is within half a cell of that at which it was closed.
   template <class Visit>
-  /// Calls visit(p_W) with the center of each cell; z is the altitude at which it was closed.
   void for_each(const Visit& visit) const {
     for (const auto& [cell, until_s] : until_s_) visit(middle_W(cell));
   }

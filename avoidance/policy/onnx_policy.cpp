@@ -39,6 +39,14 @@ std::unique_ptr<Network> network_of(const OnnxPolicyConfig& config) {
   }
 }
 
+/// Returns depth as hedgehop.Env does: 0 to `far_m`, m, which is also the depth of missing and unknown surfaces.
+cv::Mat bounded_depth(const cv::Mat& depth_m, double far_m) {
+  cv::Mat_<float> bounded = depth_m.clone();
+  const auto most_m = static_cast<float>(far_m);
+  for (float& m : bounded) m = std::isfinite(m) ? std::clamp(m, 0.0f, most_m) : most_m;
+  return bounded;
+}
+
 class OnnxPolicy final : public Module {
  public:
   explicit OnnxPolicy(const OnnxPolicyConfig& config) : config_(config) {
@@ -67,7 +75,9 @@ class OnnxPolicy final : public Module {
     for (const PolicyImage& image : config_.images) {
       const auto camera = std::ranges::find(setup.cameras, image.camera, &MountedCamera::role);
       const int channels = image.channel == CameraNeed::Channel::color ? 3 : 1;
-      blobs_.push_back(cv::Mat({1, channels, camera->model.height_px, camera->model.width_px}, CV_32F, 0.0f));
+      const bool is_depth = image.channel == CameraNeed::Channel::depth;
+      const double before_first = is_depth ? (image.far_m - image.mean) * image.scale : 0.0;
+      blobs_.push_back(cv::Mat({1, channels, camera->model.height_px, camera->model.width_px}, CV_32F, before_first));
       first_step_s_ = std::max(first_step_s_, 1.0 / camera->rate_hz);
     }
     run(State::Zero());  // reports a misfit before the flight
@@ -89,12 +99,9 @@ class OnnxPolicy final : public Module {
     for (size_t i = 0; i < config_.images.size(); ++i) {
       const PolicyImage& image = config_.images[i];
       if (image.camera != frame.role) continue;
-      cv::Mat values = frame.image;
-      if (image.channel == CameraNeed::Channel::depth) {
-        values = frame.image.clone();
-        cv::patchNaNs(values, image.mean);
-      }
-      network_->to_input(values, image.scale, image.mean, blobs_[i]);
+      const bool is_depth = image.channel == CameraNeed::Channel::depth;
+      network_->to_input(is_depth ? bounded_depth(frame.image, image.far_m) : frame.image, image.scale, image.mean,
+                         blobs_[i]);
     }
   }
 

@@ -17,6 +17,7 @@ struct PolicyImage {
   CameraNeed::Channel channel = CameraNeed::Channel::grey;  ///< not `corners`
   double mean = 0.0;
   double scale = 1.0 / 255.0;
+  double far_m = 100.0;  ///< `depth` only; the default of hedgehop.Env
 
   std::string input() const;
 };
@@ -27,11 +28,12 @@ void describe(Visitor& v, fields::ConfigOf<PolicyImage> auto& c) {
   v("channel", c.channel,
     {.choices = {"grey", "color", "depth"},
      .meaning = "channel of the camera; the network's input is <camera>_<channel>"});
-  v("mean", c.mean,
-    {.at_least = -1e3,
-     .at_most = 1e3,
-     .meaning = "subtracted from each value (0 to 255, or m); also replaces unknown depth"});
+  v("mean", c.mean, {.at_least = -1e3, .at_most = 1e3, .meaning = "subtracted from each value (0 to 255, or m)"});
   v("scale", c.scale, {.above = 0.0, .at_most = 1e3, .meaning = "factor on the difference"});
+  v("far", c.far_m,
+    {.unit = "m",
+     .above = 0.0,
+     .meaning = "maximum depth, also the depth of missing and unknown surfaces; only for the channel depth"});
 }
 
 /// Flies the output of a network. The inputs are images and, if `state` is true, `state` (1 x 10, action_pilot.h). The

@@ -136,7 +136,11 @@ class GltfModel {
     const auto [at, is_new] = meshes_.try_emplace(index);
     if (is_new) {
       GltfFile::in_element("meshes", index, [&, &primitives = at->second] {
+        GltfSize size;
         for (const Json& json : file_.element("meshes", index).at("primitives")) {
+          const GltfSize more = gltf_size(file_, json);
+          size = {size.corners + more.corners, size.faces + more.faces};
+          require_room(size);
           if (auto triangles = read_gltf_primitive(file_, json, materials_, model_.unrendered))
             primitives.push_back(*std::move(triangles));
         }
@@ -145,14 +149,20 @@ class GltfModel {
     for (const GltfPrimitive& primitive : at->second) add_primitive(primitive, transform);
   }
 
+  void require_room(const GltfSize& size) const {
+    if (triangles_ + size.faces > kMaxTriangles)
+      fail_gltf("it has more than " + std::to_string(kMaxTriangles) + " triangles");
+    if (corners_ + size.corners > kMaxCorners)
+      fail_gltf("it has more than " + std::to_string(kMaxCorners) + " corners");
+  }
+
   // Appends triangles to the part of their material. A transform that mirrors reverses their winding.
   void add_primitive(const GltfPrimitive& primitive, const Eigen::Affine3d& transform) {
     Part& part = parts_[primitive.material];
     part.material = primitive.material;
+    require_room({primitive.corners.size(), primitive.faces.size()});
     corners_ += primitive.corners.size();
     triangles_ += primitive.faces.size();
-    if (triangles_ > kMaxTriangles) fail_gltf("it has more than " + std::to_string(kMaxTriangles) + " triangles");
-    if (corners_ > kMaxCorners) fail_gltf("it has more than " + std::to_string(kMaxCorners) + " corners");
     const auto first = static_cast<uint32_t>(part.body.corners.size());
     make_room(part.body.corners, primitive.corners.size());
     make_room(part.normals, primitive.normals.size());

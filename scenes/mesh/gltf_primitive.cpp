@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Json = GltfFile::Json;
 
+constexpr size_t kTriangles = 4, kFan = 6;  // below: points and lines; between: strips
+
 GltfNumbers gltf_numbers(const GltfFile& file, const Json& attributes, const std::string& name, size_t components,
                          size_t count) {
   GltfNumbers read = file.numbers(GltfFile::count_at(attributes, name.c_str()));
@@ -102,10 +104,23 @@ void read_look(const GltfFile& file, const Json& attributes, const GltfMaterial&
 
 }  // namespace
 
+GltfSize gltf_size(const GltfFile& file, const Json& json) {
+  const size_t mode = GltfFile::count_at(json, "mode", kTriangles);
+  if (mode < kTriangles || mode > kFan) return {};
+  const Json& attributes = json.at("attributes");
+  if (!attributes.contains("POSITION")) return {};
+  const auto count_of = [&file](const Json& list, const char* accessor) {
+    return GltfFile::count_at(file.element("accessors", GltfFile::count_at(list, accessor)), "count", 0);
+  };
+  const size_t positions = count_of(attributes, "POSITION"),
+               indices = json.contains("indices") ? count_of(json, "indices") : positions,
+               faces = mode == kTriangles ? indices / 3 : std::max<size_t>(indices, 2) - 2;
+  return {attributes.contains("NORMAL") ? positions : 3 * faces, faces};
+}
+
 std::optional<GltfPrimitive> read_gltf_primitive(const GltfFile& file, const Json& json,
                                                  const std::vector<GltfMaterial>& materials,
                                                  std::set<std::string>& unrendered) {
-  constexpr size_t kTriangles = 4, kFan = 6;  // below: points and lines; between: strips
   const size_t mode = GltfFile::count_at(json, "mode", kTriangles);
   if (mode > kFan) fail_gltf("a primitive has the mode " + std::to_string(mode) + "; valid: 0 to 6");
   if (mode < kTriangles) {

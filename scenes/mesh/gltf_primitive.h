@@ -22,6 +22,15 @@ struct GltfPrimitive {
   std::vector<std::array<uint32_t, 3>> faces;
 };
 
+/// The number of corners and faces of a primitive.
+struct GltfSize {
+  size_t corners = 0, faces = 0;
+};
+
+/// Returns the size of the result of read_gltf_primitive(), from the counts of the accessors: without reading them.
+/// @throws as read_gltf_primitive().
+GltfSize gltf_size(const GltfFile& file, const GltfFile::Json& json);
+
 /// Returns a primitive of a glTF file: a list, strip or fan of triangles. Without normals, its faces are flat.
 /// @param json  the element of the list `primitives` of a mesh.
 /// @param materials  of the file, and last the default one.

@@ -7,6 +7,7 @@
 
 #include "scenes/mesh/image_file.h"
 #include "scenes/mesh/mesh_builder.h"
+#include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/placement.h"
 #include "scenes/mesh/sdf_import.h"
 #include "scenes/mesh/sdf_reader.h"
@@ -29,6 +30,9 @@ std::string add_mesh(const ImportConfig& c, const Eigen::Vector3d& origin_ENU, S
   const bool z_is_up = c.up == ImportConfig::Up::z, is_solid = c.collide == ImportConfig::Collide::surface;
   if (is_sdf(c.file)) {
     return add_sdf(c, model_to_world(c, true, false) * Eigen::Translation3d(-origin_ENU), scene);
+  }
+  if (z_is_up && suffix_of(c.file) == ".dae") {
+    throw std::invalid_argument("a DAE file states its own up axis (<up_axis>); leave out 'up: z'");
   }
   PlacedModel placed(read_model(c.file, {origin_ENU, z_is_up}));
   const Eigen::Affine3d to_W = model_to_world(c, z_is_up, placed.model().front_is_z);

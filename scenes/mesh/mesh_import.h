@@ -51,7 +51,7 @@ void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
      .at_most = 1e8,
      .meaning =
          "origin of georeferenced coordinates: east, north and up, in units of the model; default: the scene's"});
-  v("up", c.up, {.choices = {"y", "z"}, .meaning = "the model's axis that points up"});
+  v("up", c.up, {.choices = {"y", "z"}, .meaning = "axis of the model that points up; DAE files state their own"});
   v("collide", c.collide,
     {.choices = {"surface", "none"},
      .meaning = "obstacles: all triangles of the mesh, or the collision shapes of SDFormat; or none"});

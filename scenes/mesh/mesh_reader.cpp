@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "scenes/mesh/dae_check.h"
+#include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -148,7 +149,7 @@ std::string require_importable(const std::filesystem::path& mesh) {
   refuse_if(!dae_fault.empty(), dae_fault);
   refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
   refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
-  return suffix == ".obj" && text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
+  return suffix == ".obj" ? std::string(without_utf8_mark(text)) : text;
 }
 
 namespace {

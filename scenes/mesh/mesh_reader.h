@@ -12,13 +12,11 @@ namespace hedgehop::scenes::mesh {
 
 inline constexpr int kMaxNesting = 200;  ///< of JSON and XML, whose readers recurse
 
-inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< with which a text in UTF-8 may begin
-
 /// Throws std::invalid_argument with the reason, without the file's name, if the importer cannot process the file
 /// safely: it is missing, not a regular file or larger than 256 MB; its suffix is not that of an OBJ, glTF, DAE, PLY or
 /// STL file; an OBJ or a glTF is text in UTF-16; its JSON or XML is nested deeper than kMaxNesting; a DAE has indices
 /// that are not whole numbers or arrays that are too short; or a PLY announces more elements than it has bytes.
-/// @return the contents of the file; of an OBJ without kUtf8Mark.
+/// @return the contents of the file; of an OBJ without a byte order mark.
 std::string require_importable(const std::filesystem::path& mesh);
 
 /// Returns the suffix of a file in lower case, such as ".obj".

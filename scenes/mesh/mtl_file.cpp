@@ -14,6 +14,7 @@
 #include "scenes/mesh/image_file.h"
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/obj_text.h"
+#include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -108,7 +109,7 @@ void set_color(std::string_view rest, Material& look) {
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
-  return text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
+  return std::string(without_utf8_mark(text));
 }
 
 void read_mtl(const std::filesystem::path& file, const std::filesystem::path& obj_folder, ObjMaterials& found) {

@@ -28,8 +28,12 @@ void for_each_line(std::string_view text, const Visit& visit) {
     std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.ends_with('\\')) {
-      joined.append(line.substr(0, line.size() - 1)) += ' ';
-      continue;
+      line.remove_suffix(1);
+      if (!text.empty()) {
+        joined.append(line) += ' ';
+        continue;
+      }
+      line = trimmed(line);  // the last line has no other to continue it
     }
     if (!joined.empty()) line = joined += line;
     if (!line.starts_with('#')) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -107,6 +108,61 @@ Eigen::AlignedBox3d box_of(const Polyhedron& mesh, const std::vector<uint32_t>& 
   return box;
 }
 
+struct Body {
+  std::vector<uint32_t> faces;
+  Facing facing = Facing::open;
+  Eigen::AlignedBox3d box;
+};
+
+/// The bodies of a mesh that face outward, as an interval tree along the longest axis of the mesh.
+class OutwardBodies {
+ public:
+  /// @param bodies  must outlive this object.
+  explicit OutwardBodies(const std::vector<Body>& bodies) {
+    Eigen::AlignedBox3d all;
+    for (const Body& body : bodies) {
+      if (body.facing != Facing::outward) continue;
+      sorted_.push_back(&body);
+      all.extend(body.box);
+    }
+    if (sorted_.empty()) return;
+    all.sizes().maxCoeff(&axis_);
+    std::ranges::sort(sorted_, {}, [this](const Body* body) { return body->box.min()[axis_]; });
+    highest_.resize(sorted_.size());
+    set_highest(0, sorted_.size());
+  }
+
+  /// Returns whether a body whose box contains another box fulfills a condition.
+  template <class Condition>
+  bool any_around(const Eigen::AlignedBox3d& box, const Condition& holds) const {
+    return any_around(box, holds, 0, sorted_.size());
+  }
+
+ private:
+  double set_highest(size_t first, size_t last) {
+    if (first == last) return -std::numeric_limits<double>::infinity();
+    const size_t middle = (first + last) / 2;
+    highest_[middle] =
+        std::max({sorted_[middle]->box.max()[axis_], set_highest(first, middle), set_highest(middle + 1, last)});
+    return highest_[middle];
+  }
+
+  template <class Condition>
+  bool any_around(const Eigen::AlignedBox3d& box, const Condition& holds, size_t first, size_t last) const {
+    if (first == last) return false;
+    const size_t middle = (first + last) / 2;
+    if (highest_[middle] < box.max()[axis_]) return false;
+    if (any_around(box, holds, first, middle)) return true;
+    const Body& body = *sorted_[middle];
+    if (body.box.min()[axis_] > box.min()[axis_]) return false;  // as all after it
+    return (body.box.contains(box) && holds(body)) || any_around(box, holds, middle + 1, last);
+  }
+
+  std::vector<const Body*> sorted_;  ///< by the lower side of their boxes
+  std::vector<double> highest_;      ///< maximum upper side in the range whose middle is this body
+  Eigen::Index axis_ = 0;
+};
+
 /// Returns whether a closed body encloses a point: the solid angle of its faces is that of a sphere.
 bool encloses(const Polyhedron& mesh, const std::vector<uint32_t>& body, const Vector3d& p) {
   double half_angle = 0.0;
@@ -127,11 +183,6 @@ std::vector<Facing> facing_of_faces(const Polyhedron& mesh) {
   for (Face& face : faces) {
     for (uint32_t& corner : face) corner = places[corner];
   }
-  struct Body {
-    std::vector<uint32_t> faces;
-    Facing facing;
-    Eigen::AlignedBox3d box;
-  };
   std::vector<Body> bodies;
   for (ConnectedFaces& body : bodies_of(faces)) {
     Facing facing = Facing::open;
@@ -139,13 +190,12 @@ std::vector<Facing> facing_of_faces(const Polyhedron& mesh) {
     const Eigen::AlignedBox3d box = box_of(mesh, body.faces);
     bodies.push_back({std::move(body.faces), facing, box});
   }
+  const OutwardBodies outward(bodies);
   std::vector<Facing> result(mesh.faces.size());
   for (const Body& body : bodies) {
     const Vector3d inside = mesh.corners[mesh.faces[body.faces.front()][0]];
-    const bool is_cavity =
-        body.facing == Facing::inward && std::ranges::any_of(bodies, [&](const Body& other) {
-          return other.facing == Facing::outward && other.box.contains(body.box) && encloses(mesh, other.faces, inside);
-        });
+    const auto encloses_it = [&](const Body& other) { return encloses(mesh, other.faces, inside); };
+    const bool is_cavity = body.facing == Facing::inward && outward.any_around(body.box, encloses_it);
     for (const uint32_t f : body.faces) result[f] = is_cavity ? Facing::outward : body.facing;
   }
   return result;

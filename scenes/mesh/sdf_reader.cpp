@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -49,12 +50,20 @@ double positive(const pugi::xml_node& node) {
   return number;
 }
 
+/// The place of a file's models.
+struct Placement {
+  Isometry3d parent = Isometry3d::Identity();  ///< of the world or model that includes the file
+  std::string prefix;                          ///< of names
+  std::optional<Isometry3d> pose = {};         ///< in the parent, instead of the model's own
+  std::string name = {};                       ///< instead of the model's own; empty: its own
+};
+
 class Reader {
  public:
   SdfWorld take() { return std::move(world_); }
 
-  /// Reads the worlds and models of a file. @param name  of an included model, instead of its own.
-  void read_file(const std::filesystem::path& file, const Isometry3d& placed, const std::string& name, int depth) {
+  /// Reads the worlds and models of a file.
+  void read_file(const std::filesystem::path& file, const Placement& at, int depth) {
     if (depth > kMaxSdfDepth) refuse("its includes are nested deeper than 20 levels");
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) refuse("there is no such file");
@@ -70,9 +79,10 @@ class Reader {
     for (const pugi::xml_node& child : sdf.children()) {
       const std::string kind = child.name();
       if (kind == "world") {
-        read_children(child, placed, "", depth);
+        read_children(child, at.parent * at.pose.value_or(Isometry3d::Identity()), at.prefix, depth);
       } else if (kind == "model") {
-        read_model(child, placed * pose_in(sdf, child), name, depth);
+        const std::string name = at.name.empty() ? child.attribute("name").value() : at.name;
+        read_model(child, at.parent * at.pose.value_or(pose_in(sdf, child)), at.prefix + name, depth);
       } else {
         leave_out(child);
       }
@@ -137,7 +147,10 @@ class Reader {
       if (kind == "model") {
         read_model(child, placed * pose_in(parent, child), prefix + child.attribute("name").value(), depth + 1);
       } else if (kind == "include") {
-        read_include(child, placed * pose_in(parent, child), prefix, depth);
+        Placement at{.parent = placed, .prefix = prefix, .name = child.child("name").text().get()};
+        const Isometry3d pose = pose_in(parent, child);
+        if (child.child("pose")) at.pose = pose;
+        read_include(child, at, depth);
       } else if (kind == "link") {
         read_link(child, placed, prefix + child.attribute("name").value());
       } else {
@@ -147,7 +160,7 @@ class Reader {
   }
 
   void read_model(const pugi::xml_node& model, const Isometry3d& model_pose, const std::string& name, int depth) {
-    read_children(model, model_pose, (name.empty() ? model.attribute("name").value() : name) + "::", depth);
+    read_children(model, model_pose, name + "::", depth);
   }
 
   /// Returns the file of a URI: of an SDF or a mesh.
@@ -171,11 +184,10 @@ class Reader {
     refuse("<uri> '" + uri + "': there is no such file");
   }
 
-  void read_include(const pugi::xml_node& include, const Isometry3d& placed, const std::string& prefix, int depth) {
+  void read_include(const pugi::xml_node& include, const Placement& at, int depth) {
     const std::filesystem::path file = resolve(include.child("uri").text().get());
-    const std::string name = include.child("name").text().get();
     try {
-      read_file(file, placed, name.empty() ? "" : prefix + name, depth + 1);
+      read_file(file, at, depth + 1);
     } catch (const std::invalid_argument& fault) {
       refuse("included '" + file.string() + "': " + fault.what());
     }
@@ -267,7 +279,7 @@ class Reader {
 
 SdfWorld read_sdf(const std::filesystem::path& file) {
   Reader reader;
-  reader.read_file(file, Isometry3d::Identity(), "", 0);
+  reader.read_file(file, {}, 0);
   return reader.take();
 }
 

@@ -34,9 +34,10 @@ struct SdfWorld {
 };
 
 /// Reads a world or a model of SDFormat: boxes, cylinders, spheres, planes, meshes, poses, nested models, and includes
-/// by path. `model://name` is the folder `name` next to the file, next to its folder, or in `models` there. Throws
-/// std::invalid_argument with the reason, and the file if it is an included one: no SDFormat, a number that is not
-/// finite, a size that is not positive, a missing file, or more than 20 levels of includes or models.
+/// by path, whose pose and name replace those of the model. `model://name` is the folder `name` next to the file, next
+/// to its folder, or in `models` there. Throws std::invalid_argument with the reason, and the file if it is an included
+/// one: no SDFormat, a number that is not finite, a size that is not positive, a missing file, or more than 20 levels
+/// of includes or models.
 SdfWorld read_sdf(const std::filesystem::path& file);
 
 }  // namespace hedgehop::scenes::mesh

@@ -1,30 +1,41 @@
 #include "scenes/mesh/texture_image.h"
 
-#include <png.h>
 #include <turbojpeg.h>
 
 #include <algorithm>
 #include <cctype>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "scenes/mesh/mesh_import.h"
+#include "scenes/mesh/png_memory.h"
 
 namespace hedgehop::scenes::mesh {
 namespace {
 
-cv::Mat decode_png(std::span<const uint8_t> bytes) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  const std::unique_ptr<png_image, void (*)(png_image*)> freed(&header, png_image_free);
-  if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size())) return {};
-  require_size(header.width, header.height);
-  const bool has_alpha = (header.format & PNG_FORMAT_FLAG_ALPHA) != 0;
-  header.format = has_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  cv::Mat image(static_cast<int>(header.height), static_cast<int>(header.width), has_alpha ? CV_8UC4 : CV_8UC3);
-  if (!png_image_finish_read(&header, nullptr, image.data, static_cast<int>(image.step), nullptr)) return {};
+cv::Mat decode_png(std::span<const uint8_t> bytes) try {
+  PngInMemory file(bytes);
+  png_read_info(file.png, file.info);
+  const uint32_t width = png_get_image_width(file.png, file.info), height = png_get_image_height(file.png, file.info);
+  require_size(width, height);
+  png_set_expand(file.png);  // palettes, values of fewer than 8 bits, a transparent color
+  png_set_scale_16(file.png);
+  png_set_gray_to_rgb(file.png);
+  png_set_interlace_handling(file.png);
+  png_read_update_info(file.png, file.info);
+  const bool has_alpha = png_get_channels(file.png, file.info) == 4;
+  cv::Mat image(static_cast<int>(height), static_cast<int>(width), has_alpha ? CV_8UC4 : CV_8UC3);
+  std::vector<png_bytep> rows;
+  for (int row = 0; row < image.rows; ++row) rows.push_back(image.ptr(row));
+  png_read_image(file.png, rows.data());
   return image;
+} catch (const ImageTooLarge&) {
+  throw;
+} catch (const std::invalid_argument&) {
+  return {};
 }
 
 cv::Mat decode_jpeg(std::span<const uint8_t> bytes) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -15,7 +16,7 @@ namespace {
 
 // Tags and keys of [GeoTIFF11], and GDAL's tag of the value without data.
 constexpr uint32_t kPixelScale = 33550, kTiepoints = 33922, kTransformation = 34264, kGeoKeys = 34735, kNoData = 42113;
-constexpr uint16_t kModelTypeKey = 1024, kRasterTypeKey = 1025;
+constexpr uint16_t kModelTypeKey = 1024, kRasterTypeKey = 1025, kLinearUnitsKey = 3076, kVerticalUnitsKey = 4099;
 constexpr uint16_t kGeographic = 2, kPixelIsPoint = 2;
 
 /// The type of the values of a tag in the file [GeoTIFF11].
@@ -57,8 +58,18 @@ uint16_t geo_key(const std::vector<uint16_t>& directory, uint16_t key) {
   return 0;
 }
 
-void read_georeference(TIFF* tiff, Heightmap& map) {
-  const std::vector<uint16_t> keys = tag_values<uint16_t>(tiff, kGeoKeys);
+/// Returns the length of a unit in meters; 1 without the key. @param quantities  for the message, such as "heights".
+double unit_m(const std::vector<uint16_t>& directory, uint16_t key, const char* quantities) {
+  constexpr uint16_t kMeter = 9001, kFoot = 9002, kUsSurveyFoot = 9003;
+  const uint16_t unit = geo_key(directory, key);
+  if (unit == 0 || unit == kMeter) return 1.0;
+  if (unit == kFoot) return 0.3048;
+  if (unit == kUsSurveyFoot) return 1200.0 / 3937.0;
+  throw std::invalid_argument(std::string("its ") + quantities + " have the unit " + std::to_string(unit) +
+                              "; valid: 9001 (m), 9002 (ft), 9003 (US survey ft)");
+}
+
+void read_georeference(TIFF* tiff, const std::vector<uint16_t>& keys, Heightmap& map) {
   if (geo_key(keys, kModelTypeKey) == kGeographic) {
     throw std::invalid_argument("its coordinates are degrees; valid: a projection in meters, such as UTM");
   }
@@ -67,11 +78,18 @@ void read_georeference(TIFF* tiff, Heightmap& map) {
   }
   const std::vector<double> scale = tag_values<double>(tiff, kPixelScale), tie = tag_values<double>(tiff, kTiepoints);
   if (scale.size() < 2) return;
-  map.spacing_EN_m = Eigen::Vector2d(scale[0], scale[1]);
+  const auto is_valid = [](double spacing) { return std::isfinite(spacing) && spacing > 0.0; };
+  if (!is_valid(scale[0]) || !is_valid(scale[1])) {
+    throw std::invalid_argument("its pixel scale is " + std::to_string(scale[0]) + " x " + std::to_string(scale[1]) +
+                                "; valid: finite and above 0");
+  }
+  const double horizontal_m = unit_m(keys, kLinearUnitsKey, "coordinates");
+  map.spacing_EN_m = horizontal_m * Eigen::Vector2d(scale[0], scale[1]);
   if (tie.size() < 6) return;
   const double to_middle = geo_key(keys, kRasterTypeKey) == kPixelIsPoint ? 0.0 : 0.5;
-  map.northwest_EN_m =
-      Eigen::Vector2d(tie[3] + (to_middle - tie[0]) * scale[0], tie[4] - (to_middle - tie[1]) * scale[1]);
+  map.northwest_EN_m = horizontal_m * Eigen::Vector2d(tie[3] + (to_middle - tie[0]) * scale[0],
+                                                      tie[4] - (to_middle - tie[1]) * scale[1]);
+  if (!map.northwest_EN_m->allFinite()) throw std::invalid_argument("its tiepoint is not finite");
 }
 
 /// Returns the OpenCV type of the samples.
@@ -85,8 +103,13 @@ int sample_type(TIFF* tiff) {
     if (format == SAMPLEFORMAT_INT && (bits == 16 || bits == 32)) return bits == 16 ? CV_16S : CV_32S;
     if (format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16)) return bits == 8 ? CV_8U : CV_16U;
   }
-  throw std::invalid_argument("it has " + std::to_string(bands) + " bands of " + std::to_string(bits) +
-                              " bit; valid: one band of floats, or of integers of 8, 16 or 32 bit");
+  const char* const kind = format == SAMPLEFORMAT_IEEEFP ? "floating point"
+                           : format == SAMPLEFORMAT_INT  ? "signed"
+                                                         : "unsigned";
+  throw std::invalid_argument("it has " + std::to_string(bands) + " band(s) of " + std::to_string(bits) + " bit, " +
+                              kind +
+                              "; valid: one band of 8 or 16 bit, unsigned; 16 or 32 bit, signed; or 32 or 64 bit, "
+                              "floating point");
 }
 
 /// Reads the blocks of a TIFF: its tiles, or its strips as tiles of full width.
@@ -135,13 +158,15 @@ Heightmap heights_of_tiff(std::span<const uint8_t> bytes) {
   map.in_meters = true;
   const cv::Mat samples = read_blocks(tiff, static_cast<int>(columns), static_cast<int>(rows), sample_type(tiff));
   samples.convertTo(map.values, CV_32F);
-  read_georeference(tiff, map);
+  const std::vector<uint16_t> keys = tag_values<uint16_t>(tiff, kGeoKeys);
+  read_georeference(tiff, keys, map);
   if (const std::vector<char> text = tag_values<char>(tiff, kNoData); !text.empty()) {
     const auto none = static_cast<float>(std::strtod(std::string(text.begin(), text.end()).c_str(), nullptr));
     for (float& value : map.values) {
       if (value == none) value = std::numeric_limits<float>::quiet_NaN();
     }
   }
+  if (const double vertical_m = unit_m(keys, kVerticalUnitsKey, "heights"); vertical_m != 1.0) map.values *= vertical_m;
   return map;
 }
 

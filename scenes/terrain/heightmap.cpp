@@ -1,13 +1,12 @@
 #include "scenes/terrain/heightmap.h"
 
-#include <png.h>
-
-#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "scenes/mesh/png_memory.h"
 
 namespace hedgehop::scenes::terrain {
 
@@ -28,33 +27,8 @@ std::vector<uint8_t> bytes_of_file(const std::filesystem::path& file) {
   return bytes;
 }
 
-[[noreturn]] void on_png_fault(png_structp, png_const_charp why) {
-  throw std::invalid_argument(std::string("it is not a valid PNG: ") + why);
-}
-
-/// A PNG in memory. The simplified interface of libpng would convert heights as if they were colors.
-struct PngInMemory {
-  explicit PngInMemory(std::span<const uint8_t> all) : bytes(all) {
-    info = png_create_info_struct(png);
-    png_set_read_fn(png, this, [](png_structp reader, png_bytep out, size_t count) {
-      auto& file = *static_cast<PngInMemory*>(png_get_io_ptr(reader));
-      if (count > file.bytes.size()) png_error(reader, "it is truncated");
-      std::copy_n(file.bytes.begin(), count, out);
-      file.bytes = file.bytes.subspan(count);
-    });
-  }
-  ~PngInMemory() { png_destroy_read_struct(&png, &info, nullptr); }
-  PngInMemory(const PngInMemory&) = delete;
-  PngInMemory& operator=(const PngInMemory&) = delete;
-
-  std::span<const uint8_t> bytes;
-  png_structp png =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, on_png_fault, [](png_structp, png_const_charp) {});
-  png_infop info = nullptr;
-};
-
 Heightmap heights_of_png(std::span<const uint8_t> bytes) {
-  PngInMemory file(bytes);
+  mesh::PngInMemory file(bytes);
   png_read_info(file.png, file.info);
   const int color = png_get_color_type(file.png, file.info), depth = png_get_bit_depth(file.png, file.info);
   if (color != PNG_COLOR_TYPE_GRAY || depth < 8) {

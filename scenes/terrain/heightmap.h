@@ -20,8 +20,9 @@ struct Heightmap {
 inline constexpr int kMaxHeightmapSide = 512;
 
 /// Reads a PNG of 8 or 16 bit, or a TIFF of one band: integers, or floats of 32 or 64 bit, with the georeference of
-/// [GeoTIFF11] if it has one. Throws std::invalid_argument with the reason, without the file's name: missing,
-/// unreadable, more than 512 x 512 samples, coordinates in degrees, or a rotated grid.
+/// [GeoTIFF11] if it has one. Feet become meters. Throws std::invalid_argument with the reason, without the file's
+/// name: missing, unreadable, more than 512 x 512 samples, coordinates in degrees, another unit, a rotated grid, or a
+/// pixel scale or tiepoint that is not valid.
 Heightmap read_heightmap(const std::filesystem::path& file);
 
 /// Returns the heights of a TIFF. Throws as read_heightmap() does.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -42,10 +43,10 @@ class NearObjects {
  public:
   explicit NearObjects(double radius_m) : radius_m_(radius_m) {}
 
+  bool contains(const Vector2d& p_NE) const { return p_NE.cwiseAbs().maxCoeff() <= radius_m_; }
   /// Returns whether points are within the radius, and notes them or counts their object.
   bool takes(const std::vector<Vector2d>& points_NE) {
-    const auto is_near = [&](const Vector2d& p) { return p.cwiseAbs().maxCoeff() <= radius_m_; };
-    if (!std::ranges::all_of(points_NE, is_near)) {
+    if (!std::ranges::all_of(points_NE, [&](const Vector2d& p_NE) { return contains(p_NE); })) {
       ++left_out_;
       return false;
     }
@@ -68,6 +69,53 @@ class NearObjects {
   int left_out_ = 0;
   Eigen::AlignedBox2d bounds_NE_;
 };
+
+// The next functions return the objects within the radius, and report only their faults.
+
+std::vector<map::MapBuilding> near_buildings(const map::OsmObjects& objects, const map::LocalPlane& plane,
+                                             const map::DefaultHeights& heights, NearObjects& near,
+                                             std::vector<std::string>& faults) {
+  std::vector<map::MapBuilding> buildings;
+  for (const map::OsmArea& area : objects.buildings) {
+    std::vector<std::string> own_faults;
+    map::MapBuilding building = map::building_of(area, plane, heights, own_faults);
+    const auto is_taken = [&](const map::Footprint& footprint) { return near.takes(footprint.outer); };
+    if (!std::ranges::all_of(building.footprints, is_taken)) continue;
+    buildings.push_back(std::move(building));
+    std::ranges::move(own_faults, std::back_inserter(faults));
+  }
+  return buildings;
+}
+
+std::vector<map::Street> near_streets(const map::OsmObjects& objects, const map::LocalPlane& plane, NearObjects& near,
+                                      std::vector<std::string>& faults) {
+  const auto is_near = [&](const map::GeoPoint& place) { return near.contains(plane.p_NE(place)); };
+  std::vector<map::Street> streets;
+  for (const map::OsmLine& line : objects.streets) {
+    std::vector<std::string> own_faults;
+    std::optional<map::Street> street = map::street_of(line, plane, own_faults);
+    if (!(street ? near.takes(street->line_NE) : std::ranges::all_of(line.points, is_near))) continue;
+    if (street) streets.push_back(std::move(*street));
+    std::ranges::move(own_faults, std::back_inserter(faults));
+  }
+  return streets;
+}
+
+std::vector<map::MapTree> near_trees(const map::OsmObjects& objects, const map::LocalPlane& plane, uint64_t seed,
+                                     NearObjects& near, std::vector<std::string>& faults) {
+  std::vector<std::string> all_faults;
+  std::vector<map::MapTree> trees = map::trees_of(objects, plane, seed, all_faults);
+  std::erase_if(trees, [&](const map::MapTree& tree) { return !near.takes({tree.p_NE}); });
+  std::set<std::string> names;
+  for (const map::MapTree& tree : trees) names.insert(tree.name);
+  for (const map::OsmLine& row : objects.tree_rows) {
+    const auto is_near = [&](const map::GeoPoint& place) { return near.contains(plane.p_NE(place)); };
+    if (std::ranges::any_of(row.points, is_near)) names.insert(row.name);
+  }
+  std::ranges::copy_if(all_faults, std::back_inserter(faults),
+                       [&](const std::string& fault) { return names.contains(fault.substr(0, fault.find(": "))); });
+  return trees;
+}
 
 std::string summary(const MapConfig& config, const std::vector<map::MapBuilding>& buildings,
                     const std::vector<map::Street>& streets, size_t trees, int left_out) {
@@ -131,21 +179,10 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   MapContents contents;
   std::vector<std::string>& faults = objects.faults;
   NearObjects near(config.radius_m);
-  std::vector<map::MapBuilding> buildings;
-  for (const map::OsmArea& area : objects.buildings) {
-    map::MapBuilding building =
-        map::building_of(area, plane, {config.building_height_m, config.level_height_m}, faults);
-    bool all_near = true;
-    for (const map::Footprint& footprint : building.footprints) all_near = all_near && near.takes(footprint.outer);
-    if (all_near) buildings.push_back(std::move(building));
-  }
-  std::vector<map::Street> streets;
-  for (const map::OsmLine& line : objects.streets) {
-    std::optional<map::Street> street = map::street_of(line, plane, faults);
-    if (street && near.takes(street->line_NE)) streets.push_back(std::move(*street));
-  }
-  std::vector<map::MapTree> trees = map::trees_of(objects, plane, derived_seed(seed, kTownTreeStream), faults);
-  std::erase_if(trees, [&](const map::MapTree& tree) { return !near.takes({tree.p_NE}); });
+  const std::vector<map::MapBuilding> buildings =
+      near_buildings(objects, plane, {config.building_height_m, config.level_height_m}, near, faults);
+  const std::vector<map::Street> streets = near_streets(objects, plane, near, faults);
+  std::vector<map::MapTree> trees = near_trees(objects, plane, derived_seed(seed, kTownTreeStream), near, faults);
   contents.remarks.push_back(summary(config, buildings, streets, trees.size(), near.left_out()));
   const map::Ground ground = ground_of(config, plane, near.extent_m(), contents.remarks);
   report_holes(streets, ground, faults);

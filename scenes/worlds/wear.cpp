@@ -151,7 +151,8 @@ void add_worn(const mesh::TexturedPanel& panel, const mesh::ImageArea& area, dou
   const PanelPlane plane(panel);
   const double width_m = plane.size_m().x(), length_m = plane.size_m().y();
   const Area whole{area, wear.surfaces.front()};
-  const std::vector<double> lane = cuts(inset_m, width_m - inset_m, wear.random),
+  const double side_m = 2.0 * inset_m < width_m ? inset_m : 0.4 * width_m;
+  const std::vector<double> lane = cuts(side_m, width_m - side_m, wear.random),
                             t = cuts(kBorderM, length_m - kBorderM, wear.random);
   std::vector<double> s{kBorderM};
   s.insert(s.end(), lane.begin(), lane.end());

@@ -19,7 +19,7 @@ struct Wear {
 /// Adds a panel of a road that runs down the image, as MeshBuilder::add() does. It is divided into stretches of about
 /// 5 m, each with a random part of a random surface in either direction; half of the area between the insets is
 /// repaired. The panel's border has no more corners than its own four, so neighbors have no cracks.
-/// @param inset_m  of repairs from the left and right side.
+/// @param inset_m  of repairs from the left and right side; 0.4 times the width if the panel is not wider than both.
 void add_worn(const mesh::TexturedPanel& panel, const mesh::ImageArea& area, double inset_m, Wear& wear,
               mesh::MeshBuilder& mesh);
 

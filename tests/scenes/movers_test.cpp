@@ -82,6 +82,11 @@ TEST(Movers, RejectInvalidConfigs) {
               ThrowsMessage<E>(HasSubstr("movers.0.radius: must be > 0 m, got 0")));
   EXPECT_THAT([] { make_scene(room_with({{.height_m = -2.0}}), 1); },
               ThrowsMessage<E>(HasSubstr("movers.0.height: must be > 0 m, got -2")));
+  EXPECT_THAT(
+      [] {
+        make_scene(room_with({{}, {.motion = WaypointMotion{.points = {}}}}), 1);
+      },
+      ThrowsMessage<E>(testing::StartsWith("movers.1.motion.points: ")));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "scenes/generators.h"
@@ -96,6 +97,51 @@ TEST_F(Terrain, AGeoTiffHasItsPlaceAndHeightsRelativeToTheOrigin) {
       EXPECT_NEAR(altitude_m(scene, north_m, east_m), height_m(east_m, north_m) - 510.0, 1e-4) << raster_type;
     // The first sample is half a cell from the corner if a pixel is an area.
     EXPECT_EQ(std::isfinite(altitude_m(scene, -1.0, 1.0)), raster_type == 2);
+  }
+}
+
+TEST_F(Terrain, FeetOfAGeoTiffBecomeMeters) {
+  constexpr uint16_t kMeter = 9001, kFoot = 9002, kUsSurveyFoot = 9003;
+  // 5 x 4 samples of 1000 in all units; the northwest corner is at east 400 and north 100.
+  const auto corner_of = [this](uint16_t horizontal, uint16_t vertical) {
+    const TiffField units =
+        field<uint16_t>(34735, 3, {1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, horizontal, 4099, 0, 1, vertical});
+    worlds::OpenConfig config;
+    const std::string file = write(
+        "unit.tif",
+        tiff_of(cv::Mat_<float>(4, 5, 1000.0f), {field<double>(33550, 12, {10.0, 20.0, 0.0}),
+                                                 field<double>(33922, 12, {0.5, 0.5, 0.0, 400.0, 100.0, 0.0}), units}));
+    const Scene scene = open(config, {.heightmap = file});
+    return bounds_W(scene.solids.at(0));
+  };
+  const auto expect = [&](uint16_t horizontal, uint16_t vertical, double to_m, double height_to_m) {
+    const Eigen::AlignedBox3d bounds = corner_of(horizontal, vertical);
+    constexpr double kFloatM = 1e-3;
+    EXPECT_NEAR(bounds.max().x(), 100.0 * to_m, kFloatM);
+    EXPECT_NEAR(bounds.min().x(), 40.0 * to_m, kFloatM);
+    EXPECT_NEAR(bounds.min().y(), 400.0 * to_m, kFloatM);
+    EXPECT_NEAR(bounds.max().y(), 440.0 * to_m, kFloatM);
+    EXPECT_NEAR(bounds.min().z(), -1000.0 * height_to_m, kFloatM);
+  };
+  constexpr double kFootM = 0.3048, kUsSurveyFootM = 0.304800609601219;
+  expect(kMeter, kMeter, 1.0, 1.0);
+  expect(kFoot, kMeter, kFootM, 1.0);
+  expect(kMeter, kFoot, 1.0, kFootM);
+  expect(kUsSurveyFoot, kUsSurveyFoot, kUsSurveyFootM, kUsSurveyFootM);
+  EXPECT_THAT([&] { corner_of(9005, kMeter); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("its coordinates have the unit 9005; valid: 9001 (m)")));
+  EXPECT_THAT([&] { corner_of(kMeter, 9005); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("its heights have the unit 9005; valid: 9001 (m)")));
+}
+
+TEST_F(Terrain, APixelScaleOfAGeoTiffIsAboveZero) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const auto& scale : std::vector<std::vector<double>>{{0.0, 4.0, 0.0}, {4.0, -4.0, 0.0}, {inf, 4.0, 0.0}}) {
+    const std::string file =
+        write("scale.tif", tiff_of(cv::Mat_<float>(4, 5, 0.0f), {field<double>(33550, 12, scale)}));
+    EXPECT_THAT([&] { open({}, {.heightmap = file}); },
+                ThrowsMessage<std::invalid_argument>(
+                    testing::AllOf(HasSubstr("its pixel scale is "), HasSubstr("; valid: finite and above 0"))));
   }
 }
 

@@ -156,6 +156,10 @@ void check(const Camera& camera) {
                                 std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px));
   }
   std::visit([](const auto& lens) { check_lens(lens); }, camera.lens);
+  const std::optional<Eigen::Vector2d> center = camera.project(Eigen::Vector3d::UnitZ());
+  if (center && !camera.unit_ray(*center + Eigen::Vector2d::UnitY())) {
+    throw std::invalid_argument("the image circle is smaller than a pixel");
+  }
 }
 
 }  // namespace hedgehop::vision::camera

@@ -58,7 +58,8 @@ double fisheye_focal_px(const FisheyeLens& coefficients, int width_px, double ho
 double share_past_turn(const Camera& camera);
 
 /// Throws std::invalid_argument with the reason if the camera is invalid: an empty image, a focal length that is not
-/// positive, a number that is not finite, or a limit in the range in which the image radius decreases.
+/// positive, a number that is not finite, a limit in the range in which the image radius decreases, or an image circle
+/// smaller than a pixel.
 void check(const Camera& camera);
 
 }  // namespace hedgehop::vision::camera

@@ -99,6 +99,8 @@ std::optional<Eigen::Vector2d> straighten(const PinholeLens& lens, const Eigen::
   constexpr double kAccuracy = 1e-14;
   Eigen::Vector2d p = seen;
   Distorted at = distort(lens, p);
+  // Beyond the turn of the polynomial, Newton's step leads away. A smaller radius is before the turn.
+  while (!(at.slope.determinant() > 0.0) && p.norm() > 1e-3) at = distort(lens, p *= 0.5);
   for (int step = 0; step < kMaxSteps; ++step) {
     const double error = (at.point - seen).norm();
     if (error <= kAccuracy * (1.0 + seen.norm())) break;

@@ -17,7 +17,8 @@ struct StereoMatcherConfig {
   int block_px = 5;             ///< side of the compared blocks, odd; for `block` at least 5
   int uniqueness_percent = 10;  ///< required margin of the best match over the second
   int texture = 10;             ///< minimum texture of a block; `block` only
-  int left_right_px = 1;        ///< maximum difference of the matches from both sides; -1: not compared
+  int left_right_px = 1;        ///< maximum difference of the matches from both sides; `block`: -1: not compared;
+                                ///< `semi_global`: always compared, less than 1 counts as 1
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<StereoMatcherConfig> auto& c) {

@@ -54,17 +54,17 @@ inline void write(const std::filesystem::path& file, const Message& graph) {
   std::ofstream(file, std::ios::binary) << number(1, 7) + bytes(7, graph) + bytes(8, bytes(1, "") + number(2, 13));
 }
 
-/// action = weights (mean of the image `front_grey`, state) + offset, weights 4 x 11 by rows.
+/// action = weights (mean of the image `input`, state) + offset, weights 4 x 11 by rows.
 inline void write_linear_policy(const std::filesystem::path& file, uint64_t rows, uint64_t columns,
                                 const std::vector<float>& weights, const std::vector<float>& offset,
-                                const std::string& output = "action") {
-  write(file, bytes(1, node("GlobalAveragePool", {"front_grey"}, "pooled")) +
+                                const std::string& output = "action", const std::string& input = "front_grey") {
+  write(file, bytes(1, node("GlobalAveragePool", {input}, "pooled")) +
                   bytes(1, node("Flatten", {"pooled"}, "mean", {attribute("axis", 1)})) +
                   bytes(1, node("Concat", {"mean", "state"}, "all", {attribute("axis", 1)})) +
                   bytes(1, node("Gemm", {"all", "weights", "offset"}, output, {attribute("transB", 1)})) +
                   bytes(2, "linear") + bytes(5, tensor("weights", {offset.size(), 11}, weights)) +
                   bytes(5, tensor("offset", {offset.size()}, offset)) +
-                  bytes(11, value_info("front_grey", {1, 1, rows, columns})) + bytes(11, value_info("state", {1, 10})) +
+                  bytes(11, value_info(input, {1, 1, rows, columns})) + bytes(11, value_info("state", {1, 10})) +
                   bytes(12, value_info(output, {1, offset.size()})));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -88,6 +89,31 @@ TEST_F(OnnxPolicy, FliesTheNetworksActionsAndKeepsTheLastImage) {
     EXPECT_LT((flown.v_WB_W - command.v_WB_W).norm(), 1e-4);
     EXPECT_NEAR(flown.altitude_m, command.altitude_m, 1e-4);
     EXPECT_NEAR(flown.heading_rad, command.heading_rad, 1e-4);
+  }
+}
+
+TEST_F(OnnxPolicy, DepthIsThatOfTheEnvironmentInWhichPoliciesAreTrained) {
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN(), kSky = std::numeric_limits<float>::infinity();
+  onnx_file::write_linear_policy(file(), 2, 2, weights, offset, "action", "front_depth");
+  OnnxPolicyConfig config{.file = file(),
+                          .images = {{.camera = "front", .channel = CameraNeed::Channel::depth, .mean = 10.0}}};
+  const NavigationState navigation = level_flight({0, 0, -6}, 0.4, {0.5, 0.2});
+  const Goal goal{{8.0, -3.0, -7.0}, 0.0};
+  for (const double far_m : {100.0, 20.0}) {
+    config.images[0].far_m = far_m;
+    const auto module = make_onnx_policy(config);
+    module->reset(four_cameras(2, 25.0));
+    // Sum of the four pixels: far, NaN and infinite ones have the depth `far`. Before the first image, all of them do.
+    const auto first_action = [&](double sum_m) {
+      double sum = offset[0] + weights[0] * (sum_m / 4.0 - 10.0) / 255.0;
+      for (int i = 0; i < 10; ++i) sum += static_cast<double>(weights[i + 1] * state_of(navigation, goal)[i]);
+      return sum;
+    };
+    EXPECT_NEAR(module->update({0, {}, navigation, goal}).signals[0], first_action(4.0 * far_m), 1e-5);
+    const cv::Mat depth = (cv::Mat_<float>(2, 2) << kUnknown, kSky, 3.0f, 5000.0f);
+    const std::vector<CameraFrame> frames{{"front", 40'000'000, depth}};
+    const Decision decision = module->update({40'000'000, frames, navigation, goal});
+    EXPECT_NEAR(decision.signals[0], first_action(3.0 * far_m + 3.0), 1e-5) << far_m;
   }
 }
 

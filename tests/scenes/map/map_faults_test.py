@@ -108,6 +108,22 @@ class Objects(MapCase):
         lines = self.expect(file, [])
         self.assertTrue(lines[0].endswith("1 trees; 5 objects outside scene.radius"), lines)
 
+    def test_faults_of_objects_far_away_are_not_reported(self):
+        def add_faults(file, north):
+            """Adds a building, a street that is drawn, one that is not, a tree and a row of two trees. @return their names."""
+            start, end = file.node(north, 300), file.node(north + 10, 300)
+            ways = [file.box(north, 200, 5, 5, {"height": "tall"}),
+                    file.way([start, end], {"highway": "residential", "width": "-4"}),
+                    file.way([start, end], {"highway": "canal"}),
+                    file.way([start, end], {"natural": "tree_row", "height": "high"})]
+            return [f"way {number}" for number in ways] + [f"node {file.node(north, 250, {'natural': 'tree', 'height': '1e9'})}"]
+
+        file = village()
+        add_faults(file, 20e3)
+        names = add_faults(file, 500)
+        lines = self.expect(file, names)
+        self.assertTrue(lines[0].endswith("; 5 objects outside scene.radius"), lines)
+
 
 @unittest.skipUnless(HAS_MAPS, "needs libosmium (scripts/packages maps)")
 class Files(MapCase):

@@ -51,6 +51,25 @@ TEST_F(GltfFaults, NamesTheElementWithAValueOfAWrongType) {
   EXPECT_THAT(import_of(mesh + std::string(R"("accessors": [{"type": 3}])")), fault_of("accessors[0]"));
 }
 
+TEST_F(GltfFaults, RefusesALargePrimitiveBeforeItReadsIt) {
+  // The second primitive has a fault, which is met only if the first one is read.
+  const auto import_of = [&](const std::string& first) {
+    const std::string text = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "accessors": [
+        {"componentType": 5126, "count": 9000000, "type": "VEC3"}, {"componentType": 5125, "count": 3, "type": "SCALAR"},
+        {"componentType": 5125, "count": 9000000, "type": "SCALAR"}],
+        "meshes": [{"primitives": [)" +
+                             first + R"(, {"attributes": {"POSITION": 9}}]}]})";
+    return [this, file = write("large.gltf", text)] { imported({.file = file}); };
+  };
+  const auto triangles = ThrowsMessage<E>(HasSubstr("large.gltf': it has more than 2000000 triangles"));
+  EXPECT_THAT(import_of(R"({"attributes": {"POSITION": 0}})"), triangles);
+  EXPECT_THAT(import_of(R"({"attributes": {"POSITION": 0}, "indices": 2, "mode": 5})"), triangles);
+  EXPECT_THAT(import_of(R"({"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 1})"),
+              ThrowsMessage<E>(HasSubstr("large.gltf': it has more than 6000000 corners")));
+  EXPECT_THAT(import_of(R"({"attributes": {"POSITION": 0}, "mode": 0})"),
+              ThrowsMessage<E>(HasSubstr("it has no accessors[9]")));
+}
+
 TEST_F(GltfFaults, RefusesCornersThatAreNotFinite) {
   GltfText gltf;
   const std::string position = gltf.add(std::vector<float>(9, std::numeric_limits<float>::infinity()), kFloat, 3);

@@ -1,6 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "scenes/mesh/orientation.h"
+#include "tests/scenes/mesh/gltf_text.h"
 #include "tests/scenes/mesh/imported_files.h"
 
 namespace hedgehop::scenes::mesh {
@@ -51,6 +57,41 @@ TEST_F(MeshFormats, TheWallOfACavityStaysVisibleFromInside) {
   const Scene scene = imported({.file = file});
   EXPECT_NEAR(cast(scene, {0.0, 0.1, 0.2}, Vector3d::UnitX()).distance_m, 2.0, 1e-5);
   EXPECT_NEAR(cast(scene, {-10.0, 0.1, 0.2}, Vector3d::UnitX()).distance_m, 7.0, 1e-5);
+}
+
+TEST(FacingOfFaces, AnInwardCubeIsACavityIfAnOutwardCubeContainsIt) {
+  constexpr int kCubes = 400;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-10.0, 10.0), size(0.05, 5.0);
+  const CubeData cube;
+  for (const Vector3d& spread : {Vector3d(1, 0.2, 0.1), Vector3d(0.1, 1, 0.2), Vector3d(0, 0, 1)}) {
+    Polyhedron mesh;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<bool> inward;
+    for (int k = 0; k < kCubes; ++k) {
+      const Vector3d center = spread.cwiseProduct(Vector3d(place(random), place(random), place(random)));
+      const double half = size(random) * size(random) / 10.0;
+      boxes.emplace_back(center - Vector3d::Constant(half), center + Vector3d::Constant(half));
+      inward.push_back(random() % 2 == 0);
+      const auto first = static_cast<uint32_t>(mesh.corners.size());
+      for (size_t i = 0; i < cube.corners.size(); i += 3)
+        mesh.corners.emplace_back(center + half * Vector3d(cube.corners[i], cube.corners[i + 1], cube.corners[i + 2]));
+      for (size_t i = 0; i < cube.indices.size(); i += 3) {
+        mesh.faces.push_back({first + cube.indices[i], first + cube.indices[i + 1], first + cube.indices[i + 2]});
+        if (inward.back()) std::swap(mesh.faces.back()[1], mesh.faces.back()[2]);
+      }
+    }
+    const std::vector<Facing> facing = facing_of_faces(mesh);
+    int cavities = 0;
+    for (size_t k = 0; k < boxes.size(); ++k) {
+      bool is_cavity = false;
+      for (size_t i = 0; i < boxes.size(); ++i) is_cavity |= inward[k] && !inward[i] && boxes[i].contains(boxes[k]);
+      cavities += is_cavity ? 1 : 0;
+      EXPECT_EQ(facing[12 * k], inward[k] && !is_cavity ? Facing::inward : Facing::outward) << k;
+    }
+    EXPECT_GT(cavities, 20);
+    EXPECT_LT(cavities, std::ranges::count(inward, true));
+  }
 }
 
 TEST_F(MeshFormats, SubtractsTheOriginOfGeoreferencedCoordinatesInDoublePrecision) {
@@ -116,6 +157,8 @@ TEST_F(MeshFormats, ReadsColladaWithItsUnitAndAxis) {
   // 2 m east, 3 m north, 1 m up.
   EXPECT_LT((box.min() - Eigen::Vector3f(0, 0, -1)).norm(), 1e-5f);
   EXPECT_LT((box.max() - Eigen::Vector3f(3, 2, -1)).norm(), 1e-5f);
+  EXPECT_THAT([&] { imported({.file = write("a.dae", kCollada), .up = ImportConfig::Up::z}); },
+              ThrowsMessage<E>(HasSubstr("a.dae': a DAE file states its own up axis")));
   std::string deep = kCollada;
   for (int i = 0; i < 1000; ++i) deep += "<node>";
   EXPECT_THAT([&] { imported({.file = write("deep.dae", deep)}); },

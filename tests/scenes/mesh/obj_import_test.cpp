@@ -57,6 +57,16 @@ TEST_F(ObjImport, LinesMayEndInEveryWayAndContinue) {
   for (const std::string& each : {text, windows, old_mac}) EXPECT_DOUBLE_EQ(area_of(read(each)), 6.0);
 }
 
+TEST_F(ObjImport, TheLastLineMayEndWithABackslash) {
+  for (const std::string ending : {"\\", " \\\n", "\\\r\n", " \\\n\n"}) {
+    EXPECT_DOUBLE_EQ(area_of(read(kCorners + "f 1 2 3 4" + ending)), 6.0) << ending;
+    EXPECT_DOUBLE_EQ(area_of(read(kCorners + "f 1 2 \\\n3 4" + ending)), 6.0) << ending;
+  }
+  write("a.mtl", "newmtl red\nKd 1 0 0\\");
+  const Model model = read("mtllib a.mtl\n" + kCorners + "usemtl red\nf 1 2 3\n");
+  EXPECT_EQ(model.materials.at(model.parts.at(0).material).color, Eigen::Vector3f(1, 0, 0));
+}
+
 TEST_F(ObjImport, FacesWithoutNormalsAreFlatAndSmoothCornersAreShared) {
   const std::string fold = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\n";
   const Model flat = read(fold + "f 1 2 3\nf 2 1 4\n");

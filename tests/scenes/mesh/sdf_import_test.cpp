@@ -140,6 +140,31 @@ TEST_F(SdfWorlds, IncludesModelsByPathWithTheirMeshes) {
   EXPECT_EQ(mesh_files(folder_ / "w.sdf").size(), 3u);  // with the model and its mesh, once
 }
 
+TEST_F(SdfWorlds, ThePoseOfAnIncludeReplacesThatOfItsModel) {
+  write("inner/model.sdf", "<sdf version='1.7'>" + model("inner", "0 12 0.5 0 0 0", link(box("4 4 1"))) + "</sdf>");
+  const std::string included = "<include><uri>inner</uri>", at_20 = "<pose>0 20 0.5 0 0 0</pose></include>";
+  const auto wall_m = [&](const std::string& contents) {
+    return cast(world(contents), {0.0, 0.1, -0.5}, kToNorth).distance_m;
+  };
+  EXPECT_NEAR(wall_m(included + at_20), 18.0, 1e-5);
+  EXPECT_NEAR(wall_m(included + "</include>"), 10.0, 1e-5);
+  EXPECT_NEAR(wall_m(model("outer", "0 3 0 0 0 0", included + at_20)), 21.0, 1e-5);
+  EXPECT_NEAR(wall_m(model("outer", "0 3 0 0 0 0", included + "</include>")), 13.0, 1e-5);
+}
+
+TEST_F(SdfWorlds, NamesOfIncludedModelsBeginWithTheModelThatIncludesThem) {
+  write("inner/model.sdf", "<sdf version='1.7'>" + model("inner", "", link(box("1 1 1"))) + "</sdf>");
+  const std::string file = write(
+      "w.sdf",
+      "<sdf version='1.7'><world name='w'>" +
+          model("outer", "", "<include><uri>inner</uri></include><include><uri>inner</uri><name>b</name></include>") +
+          "</world></sdf>");
+  const SdfWorld read = read_sdf(file);
+  ASSERT_EQ(read.shapes.size(), 4u);
+  EXPECT_EQ(read.shapes[0].name, "outer::inner::link::v");
+  EXPECT_EQ(read.shapes[2].name, "outer::b::link::v");
+}
+
 TEST_F(SdfWorlds, ListsTheElementsThatItLeavesOut) {
   world("<light name='sun'/><light name='lamp'/><physics/>" +
         model("m", "",

@@ -41,6 +41,21 @@ TEST(DecodeTexture, EqualsOpenCvForPng) {
   }
 }
 
+TEST(DecodeTexture, KeepsTheColorsOfPngWith16BitsOrGamma) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4}) {
+    const std::vector<uint8_t> bytes = encoded(".png", colors(type));
+    const cv::Mat expected = decode_texture(bytes);
+    cv::Mat wide;
+    colors(type).convertTo(wide, CV_16U, 257.0);  // 255 becomes 65535
+    EXPECT_EQ(cv::norm(decode_texture(encoded(".png", wide)), expected, cv::NORM_INF), 0.0) << type;
+    // A gamma of 1, behind the header.
+    constexpr std::array<uint8_t, 16> kGamma{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 1, 0x86, 0xa0, 0x31, 0xe8, 0x96, 0x5f};
+    std::vector<uint8_t> with_gamma = bytes;
+    with_gamma.insert(with_gamma.begin() + 33, kGamma.begin(), kGamma.end());
+    EXPECT_EQ(cv::norm(decode_texture(with_gamma), expected, cv::NORM_INF), 0.0) << type;
+  }
+}
+
 TEST(DecodeTexture, KeepsTheAlphaOfPngBmpAndWebp) {
   const cv::Mat bgra = colors(CV_8UC4);
   cv::Mat rgba;

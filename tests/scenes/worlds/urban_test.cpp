@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scenes/generators.h"
+#include "scenes/worlds/wear.h"
 #include "tests/scenes/scene_equality.h"
 
 namespace hedgehop::scenes::worlds {
@@ -45,6 +46,25 @@ TEST(Urban, AnotherSeedGivesAnotherCityAndOtherTextures) {
   EXPECT_FALSE(identical(a, b));
   EXPECT_GT(cv::norm(a.textures.images().back(), b.textures.images().back(), cv::NORM_L1), 0.0);
   EXPECT_NE(a.solids.front().half_extents_m, b.solids.front().half_extents_m);
+}
+
+TEST(Urban, AWornStreetOfAnyWidthIsDrawnOnce) {
+  constexpr double kLengthM = 20.0, kInsetM = 1.9, kFloatM2 = 1e-3;
+  for (const double width_m : {1.0, 2.5, 3.7, 3.8, 3.9, 8.0}) {
+    Wear wear{.surfaces = {0, 1}, .repairs = 2, .random = Random(3)};
+    mesh::MeshBuilder builder("opaque");
+    builder.begin_instance("road", SemanticClass::road);
+    builder.begin_chunk(false);
+    add_worn({{0.0, 0.0, 0.0}, {0.0, width_m, 0.0}, {-kLengthM, 0.0, 0.0}}, {}, kInsetM, wear, builder);
+    const Mesh mesh = builder.finish();
+    double area_m2 = 0.0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const Eigen::Vector3f &a = mesh.vertices[mesh.indices[i]].p_W, &b = mesh.vertices[mesh.indices[i + 1]].p_W,
+                            &c = mesh.vertices[mesh.indices[i + 2]].p_W;
+      area_m2 += 0.5 * static_cast<double>((b - a).cross(c - a).norm());
+    }
+    EXPECT_NEAR(area_m2, width_m * kLengthM, kFloatM2) << width_m;
+  }
 }
 
 TEST(Urban, BuildingsAreAtLeastTheMinimumStreetWidthApart) {

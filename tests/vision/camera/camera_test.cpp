@@ -116,6 +116,23 @@ TEST(Camera, DistortedPinholeProjectsLikeOpenCv) {
   EXPECT_GT(compared, 3000u);
 }
 
+/// The distorted radius first grows faster than the angle, then turns back.
+TEST(Camera, PincushionThatTurnsHasARayForEachPixelBeforeTheTurn) {
+  for (const auto& [k1, k2] : {std::pair(0.5, -0.3), std::pair(0.3, -0.08), std::pair(1.0, -1.0)}) {
+    const Camera camera(
+        160, 160,
+        PinholeLens{.focal_x_px = 60, .focal_y_px = 60, .center_u_px = 80, .center_v_px = 80, .k1 = k1, .k2 = k2});
+    // 1 + 3 k1 r^2 + 5 k2 r^4 = 0 at the turn.
+    const double turn = std::sqrt((-3.0 * k1 - std::sqrt(9.0 * k1 * k1 - 20.0 * k2)) / (10.0 * k2));
+    for (int i = 1; i < 100; ++i) {
+      const double r = 0.01 * i * turn;
+      const auto ray = camera.unit_ray({80.0 + 60.0 * r * (1.0 + k1 * r * r + k2 * r * r * r * r), 80.0});
+      ASSERT_TRUE(ray) << k1 << ": " << i << " % of the radius of the turn";
+      EXPECT_NEAR(ray->x() / ray->z(), r, 1e-8);
+    }
+  }
+}
+
 TEST(Camera, ReportsTheShareOfAnImagePastTheTurnOfItsPolynomial) {
   PinholeLens wide{857.48, 876.72, 968.06, 556.37};  // of an action camera
   wide.k1 = -0.2576;
@@ -239,6 +256,10 @@ TEST(Camera, CheckRejectsInvalidCameras) {
   EXPECT_THAT(refusal([&] { check({20, 20, folding}); }), testing::HasSubstr("folds back"));
   EXPECT_NEAR(folding.growth_limit_rad(), 1.0 / std::sqrt(0.9), 2e-4);
   EXPECT_THAT(refusal([&] { fisheye_focal_px(folding, 20, 3.0); }), testing::HasSubstr("cannot show"));
+  EXPECT_THAT(refusal([&] {
+                check({20, 20, FisheyeLens{0.2, 0.2, 10, 10}});
+              }),
+              testing::HasSubstr("smaller than a pixel"));
 }
 
 }  // namespace
