@@ -13,18 +13,12 @@
 #include <string>
 
 #include "sim/config/input_error.h"
+#include "sim/config/pending_file.h"
 
 namespace hedgehop::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns the result of a call, which is repeated if a signal interrupts it.
-int repeated(const auto& call) {
-  int result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
 
 /// Returns whether the path still names the open file. A holder removes its file before it unlocks it.
 bool is_still(const fs::path& file, int descriptor) {
@@ -64,13 +58,18 @@ void FolderLock::make_folder() {
     if (at.has_filename()) missing.push_back(at);
   }
   for (const fs::path& at : missing | std::views::reverse) {
-    if (fs::create_directory(at)) made_.push_back(at);
+    if (fs::create_directory(at, error)) made_.push_back(at);
+    if (!error) continue;
+    release();
+    const std::string what = fmt::format("{}: cannot write results: {}", folder_.string(), at.string());
+    if (fs::is_symlink(at)) throw InputError(what + ": is a link to a missing folder");
+    throw std::runtime_error(fmt::format("{}: {}", what, error.message()));
   }
 }
 
 void FolderLock::hold(const fs::path& file, bool alone) {
   for (;;) {
-    const int descriptor = repeated([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
+    const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
     if (descriptor < 0) {
       const int error = errno;
       release();
@@ -78,7 +77,7 @@ void FolderLock::hold(const fs::path& file, bool alone) {
           fmt::format("{}: cannot write results: {}: {}", folder_.string(), file.string(), std::strerror(error)));
     }
     const int operation = (alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
-    if (repeated([&] { return ::flock(descriptor, operation); }) != 0 && errno == EWOULDBLOCK) {
+    if (uninterrupted([&] { return ::flock(descriptor, operation); }) != 0 && errno == EWOULDBLOCK) {
       const std::string holder = holder_of(descriptor);
       ::close(descriptor);
       release();

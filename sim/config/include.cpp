@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Keys that exclude each other because each chooses the module.
 constexpr std::array<std::string_view, 3> kModuleKeys = {kModuleSelector, kPythonKey, kPluginKey};
 /// Keys of a library's module, which may be set before `plugin`.
-constexpr std::array<std::string_view, 4> kLibraryKeys = {kModuleSelector, "parameters", "limit", "in_process"};
+constexpr std::array<std::string_view, 4> kLibraryKeys = {kModuleSelector, kParametersKey, "limit", "in_process"};
 bool is_override(const Node& value) { return value.position.file.starts_with("--set "); }
 
 /// Whether a key with this value chooses another alternative than the map does.
@@ -214,7 +214,8 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
     keys.pop_back();
   }
   Entry last{std::move(keys.back()), position, std::move(value)};
-  convert_units(last, keys.size() > 1 ? keys[keys.size() - 2] : "", errors);
+  const bool is_foreign = std::ranges::find(keys, kParametersKey) != keys.end();
+  if (!is_foreign) convert_units(last, keys.size() > 1 ? keys[keys.size() - 2] : "", errors);
   includer.expand(last.value, folder, last.key);
   keys.back() = last.key;
 

@@ -75,4 +75,11 @@ std::string number_text(double member, bool degrees) {
   return text;
 }
 
+std::string yaml_1_1_number(double value) {
+  std::string text = number_text(value, false);
+  const size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
 }  // namespace hedgehop::sim

@@ -24,4 +24,8 @@ std::optional<uint64_t> parse_unsigned(std::string_view text);
 /// Returns the shortest decimal that parse_number() converts to exactly `member`, which must be finite.
 std::string number_text(double member, bool degrees);
 
+/// Returns a number as number_text(), for files of other programs: with a point before an exponent, "2.0e-05". Readers
+/// of YAML 1.1 such as PyYAML take "2e-05" for a text.
+std::string yaml_1_1_number(double value);
+
 }  // namespace hedgehop::sim

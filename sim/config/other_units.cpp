@@ -38,6 +38,7 @@ void convert_units(Entry& entry, std::string_view map, ErrorList& errors) {
 }
 
 void convert_units(Node& node, std::string_view key, ErrorList& errors) {
+  if (key == kParametersKey) return;
   for (Node& item : node.items) convert_units(item, "", errors);
   for (Entry& entry : node.entries) {
     const OtherUnit* const row = other_unit(key, entry.key);

@@ -8,7 +8,11 @@
 /// Keys that give a value in another unit than the field's: `rpm` in `main_rotor` is its `speed`, which is in rad/s.
 namespace hedgehop::sim {
 
-/// Renames these keys in an input, before it overrides another, and converts their values.
+/// Key of the parameters of a foreign module, whose names and units are the module's own.
+inline constexpr std::string_view kParametersKey = "parameters";
+
+/// Renames these keys in an input, before it overrides another, and converts their values. Does not change a
+/// foreign module's parameters.
 /// @param key  of the node. @param errors  gains each map with both keys.
 void convert_units(Node& node, std::string_view key, ErrorList& errors);
 /// As above, for an entry and the values in it. @param map  key of the map that has the entry.

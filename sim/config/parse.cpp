@@ -40,7 +40,7 @@ class Builder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Node node = make(Node::Kind::null, mark, "", anchor);
+    Node node = make(Node::Kind::null, mark, "");
     // The parser marks an empty value at the next token; the position of its key is clearer.
     if (!open_.empty() && open_.back().has_key && node.position.line > open_.back().key_position.line) {
       node.position = open_.back().key_position;
@@ -49,14 +49,14 @@ class Builder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
-    Node node = make(Node::Kind::scalar, mark, tag, anchor);
+    Node node = make(Node::Kind::scalar, mark, tag);
     node.text = value;
     node.quoted = tag == "!";
     add(std::move(node), anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = anchors_.find(anchor);
-    Node node = make(Node::Kind::null, mark, "", 0);
+    Node node = make(Node::Kind::null, mark, "");
     if (named == anchors_.end()) {
       errors_.add(node.position, "an alias is inside its own anchor");
     } else if (const size_t count = count_nodes(named->second); nodes_ + count > kMaxNodes) {
@@ -70,12 +70,12 @@ class Builder : public YAML::EventHandler {
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
-    open_.push_back({make(Node::Kind::list, mark, tag, anchor), anchor});
+    open_.push_back({make(Node::Kind::list, mark, tag), anchor});
   }
   void OnSequenceEnd() override { close(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
-    open_.push_back({make(Node::Kind::map, mark, tag, anchor), anchor});
+    open_.push_back({make(Node::Kind::map, mark, tag), anchor});
   }
   void OnMapEnd() override { close(); }
 
@@ -89,7 +89,7 @@ class Builder : public YAML::EventHandler {
     SourcePosition key_position = {};
   };
 
-  Node make(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t) {
+  Node make(Node::Kind kind, const YAML::Mark& mark, const std::string& tag) {
     Node node;
     node.kind = kind;
     node.position = {file_, mark.line + 1, mark.column + 1};
@@ -141,19 +141,13 @@ class Builder : public YAML::EventHandler {
       errors_.add(key.position, fmt::format("a key in {} must be one word, got {}", in, key.description()));
     } else if (key.text == "<<") {
       errors_.add(key.position, fmt::format("merge key '<<' in {} is not allowed; use 'use: file.yaml'", in));
-    } else if (const Entry* first = find_entry(open.node, key.text)) {
+    } else if (const auto first = std::ranges::find(open.node.entries, key.text, &Entry::key);
+               first != open.node.entries.end()) {
       errors_.add(key.position,
                   fmt::format("duplicate key '{}' in {}; first at line {}", key.text, in, first->position.line));
     } else {
       open.drop = false;
     }
-  }
-
-  static const Entry* find_entry(const Node& map, std::string_view key) {
-    for (const Entry& entry : map.entries) {
-      if (entry.key == key) return &entry;
-    }
-    return nullptr;
   }
 
   void close() {

@@ -63,6 +63,8 @@ void require_writable(const std::filesystem::path& folder) {
   std::filesystem::path there = std::filesystem::absolute(folder);
   bool is_missing = false;
   for (; !std::filesystem::exists(there, error) && !error && there.has_relative_path(); there = there.parent_path()) {
+    std::error_code ignored;
+    if (std::filesystem::is_symlink(there, ignored)) break;  // to a missing folder: none can be created here
     is_missing = true;
   }
   if (!error && !std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);

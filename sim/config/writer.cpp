@@ -8,10 +8,6 @@
 namespace hedgehop::sim {
 namespace {
 
-std::string scalar(const ConfigOutline& node) {
-  return node.kind == ConfigOutline::Kind::text ? yaml_quoted(node.value) : node.value;
-}
-
 std::string always_quoted(const std::string& text) {
   std::string out = "\"";
   for (char c : text) {
@@ -29,6 +25,25 @@ std::string always_quoted(const std::string& text) {
   return out + '"';
 }
 
+/// @param in_list  on one line with other items: there, a comma or a bracket ends an unquoted scalar.
+std::string scalar(const ConfigOutline& node, bool in_list = false) {
+  constexpr std::string_view kListSigns = ",?[]{}";
+  if (node.kind == ConfigOutline::Kind::text) return yaml_quoted(node.value);
+  const bool ends_early =
+      node.kind == ConfigOutline::Kind::choice && node.value.find_first_of(kListSigns) < std::string::npos;
+  return in_list && ends_early ? always_quoted(node.value) : node.value;
+}
+
+/// Returns a key, quoted if it contains signs of YAML or would be null.
+std::string key_text(const std::string& key) {
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; };
+  const auto is_inner = [&](unsigned char c) { return is_word(c) || c == ' ' || c == '-' || c == '/' || c == '.'; };
+  const bool plain = !key.empty() && is_word(static_cast<unsigned char>(key.front())) && key.back() != ' ' &&
+                     std::ranges::all_of(key, is_inner);
+  const bool is_null = key == "null" || key == "Null" || key == "NULL";
+  return plain && !is_null ? key : always_quoted(key);
+}
+
 void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out);
 
 /// Appends the value after "key:": on the same line for scalars and lists of scalars, otherwise on indented lines.
@@ -39,7 +54,7 @@ void write_value(const ConfigOutline& node, int indent, std::string& out) {
     out += fmt::format(" {}\n", scalar(node));
   } else if (node.kind == ConfigOutline::Kind::list && std::ranges::all_of(node.parts, &ConfigOutline::is_scalar)) {
     std::vector<std::string> items;
-    for (const ConfigOutline& item : node.parts) items.push_back(scalar(item));
+    for (const ConfigOutline& item : node.parts) items.push_back(scalar(item, /*in_list=*/true));
     out += fmt::format(" [{}]\n", fmt::join(items, ", "));
   } else if (node.kind == ConfigOutline::Kind::list) {
     out += "\n";
@@ -63,7 +78,7 @@ void write_value(const ConfigOutline& node, int indent, std::string& out) {
 
 void write_fields(const std::vector<ConfigOutline>& fields, int indent, std::string& out) {
   for (const ConfigOutline& field : fields) {
-    out += fmt::format("{:{}}{}:", "", indent, field.key);
+    out += fmt::format("{:{}}{}:", "", indent, key_text(field.key));
     write_value(field, indent + 2, out);
   }
 }
@@ -82,7 +97,7 @@ std::string flow_text(const Node& node) {
     case Node::Kind::null:
       return "null";
     case Node::Kind::scalar: {
-      constexpr std::string_view kFlowSigns = ",[]{}:#\"'\\\n";
+      constexpr std::string_view kFlowSigns = ",?[]{}:#\"'\\\n";
       const bool plain = !node.quoted && node.text.find_first_of(kFlowSigns) == std::string::npos;
       return plain ? node.text : node.quoted ? always_quoted(node.text) : yaml_quoted(node.text);
     }
@@ -90,7 +105,7 @@ std::string flow_text(const Node& node) {
       for (const Node& item : node.items) parts.push_back(flow_text(item));
       return fmt::format("[{}]", fmt::join(parts, ", "));
     case Node::Kind::map:
-      for (const Entry& entry : node.entries) parts.push_back(entry.key + ": " + flow_text(entry.value));
+      for (const Entry& entry : node.entries) parts.push_back(key_text(entry.key) + ": " + flow_text(entry.value));
       return fmt::format("{{{}}}", fmt::join(parts, ", "));
   }
   return "";

@@ -10,12 +10,12 @@
 #include <optional>
 #include <set>
 
-#include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
 #include "sim/dataset/coco.h"
 #include "sim/dataset/drawn_world.h"
+#include "sim/dataset/pose_file.h"
 #include "sim/flight/build.h"
 #include "sim/libm/random.h"
 #include "sim/record/image_file.h"
@@ -102,6 +102,17 @@ std::pair<size_t, size_t> images_of(const DatasetRequest& request, size_t world,
   return {each + (world < more ? 1 : 0), world * each + std::min(world, more)};
 }
 
+/// Refuses a file of poses that cannot be read, or that has fewer poses than a world has images.
+void check_poses(const DatasetRequest& request) {
+  if (request.poses.empty()) return;
+  const std::string file = request.poses.string();
+  const size_t worlds = world_count(request);
+  const size_t poses = parse_poses(read_file_whole(request.poses), file, {.of_camera = request.poses_of_camera}).size();
+  if (request.images <= worlds * poses) return;
+  throw InputError(fmt::format("--images {}: {} has {} poses; valid: up to {} images in {} worlds", request.images,
+                               file, poses, worlds * poses, worlds));
+}
+
 /// A file's suffix and text.
 struct CalibrationText {
   std::string_view suffix;
@@ -112,7 +123,7 @@ struct CalibrationText {
 /// or the file of OCamCalib.
 CalibrationText calibration_of(const CameraConfig& camera, const dynamics::sensors::ImuConfig& imu) {
   using Model = CameraConfig::Model;
-  if (camera.model_kind == Model::ocam) return {".txt", read_input_file(camera.calibration)};
+  if (camera.model_kind == Model::ocam) return {".txt", read_file_whole(camera.calibration)};
   const std::array<CameraConfig, 1> one = {camera};
   try {
     return {".yaml",
@@ -172,8 +183,9 @@ void begin_dataset(const DatasetRequest& request, bool resume) {
     throw InputError(fmt::format("{}: is not an empty folder; continue an interrupted data set with --resume",
                                  request.out.string()));
   }
+  check_poses(request);
   const std::string text = request_json(request);
-  if (is_used && (!fs::exists(file) || read_input_file(file) != text)) {
+  if (is_used && (!fs::exists(file) || read_file_whole(file) != text)) {
     throw InputError(fmt::format("{}: holds a data set of another request, of other files or of another build",
                                  request.out.string()));
   }
@@ -243,13 +255,13 @@ void write_world(const DatasetRequest& request, size_t world) {
 void finish_dataset(const DatasetRequest& request) {
   std::string manifest(kManifestHead);
   const std::vector<Split> splits = splits_of(world_count(request));
-  for (size_t world = 0; world < splits.size(); ++world) manifest += read_input_file(part_of(request, world, "csv"));
+  for (size_t world = 0; world < splits.size(); ++world) manifest += read_file_whole(part_of(request, world, "csv"));
   write_file_whole(request.out / "manifest.csv", manifest);
   if (!has_channel(request, DatasetChannel::instance)) return;
   for (const Split split : {Split::train, Split::val, Split::test}) {
     std::vector<std::string> parts;
     for (size_t world = 0; world < splits.size(); ++world) {
-      if (splits[world] == split) parts.push_back(read_input_file(part_of(request, world, "json")));
+      if (splits[world] == split) parts.push_back(read_file_whole(part_of(request, world, "json")));
     }
     write_file_whole(request.out / fmt::format("coco_{}.json", name_of(split)), join_coco(parts));
   }

@@ -39,7 +39,8 @@ size_t world_count(const DatasetRequest& request);
 std::string world_name(const DatasetRequest& request, size_t world);
 
 /// Prepares the folder: it must be empty, or hold an unfinished data set of the same request, files and build if
-/// `resume`. Throws InputError otherwise, and for a request without channels or images.
+/// `resume`. Throws InputError otherwise, as parse_poses(), and for a request without channels or images or with more
+/// images than poses in the file; the folder is then not changed.
 void begin_dataset(const DatasetRequest& request, bool resume);
 
 /// Empties the folder again if no world is complete, so that a corrected request can begin.

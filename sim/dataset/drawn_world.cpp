@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/config/include.h"
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
 #include "sim/dataset/pose_file.h"
 #include "sim/export/true_images.h"
 #include "sim/libm/random.h"
@@ -82,7 +82,7 @@ std::vector<Shot> DrawnWorld::shots_of_file(size_t count) const {
   X_WB_start.linear() = Eigen::AngleAxisd(scenario_.start.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   X_WB_start.translation() = scenario_.start.p_WB();
   const PoseReading reading{request_.poses_of_camera, scenario_.avionics.imu.p_BI_m, X_WB_start * X_BC};
-  const std::vector<TimedPose> poses = parse_poses(read_input_file(request_.poses), request_.poses.string(), reading);
+  const std::vector<TimedPose> poses = parse_poses(read_file_whole(request_.poses), request_.poses.string(), reading);
   const size_t taken = count == 0 ? poses.size() : std::min(count, poses.size());
   std::vector<Shot> shots;
   for (size_t i = 0; i < taken; ++i) {

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
 #include "sim/export/sensor_record.h"
+#include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -45,7 +47,7 @@ class PoseParser {
  public:
   PoseParser(const std::string& text, std::string file, const PoseReading& reading)
       : file_(std::move(file)), reading_(reading) {
-    std::istringstream stream(text);
+    std::istringstream stream{std::string(without_utf8_mark(text))};
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
       ++number;
@@ -60,8 +62,7 @@ class PoseParser {
     const Line& first = lines_.front();
     if (parse_number(first.words[0], false).kind == ParsedNumber::Kind::not_a_number) return parse_table();
     if (first.words.size() == 12) return parse_kitti();
-    constexpr double kMinNs = 1e12;  // a time in ns, not in s
-    const bool is_euroc = first.words.size() >= 8 && std::abs(number(first, 0)) >= kMinNs;
+    const bool is_euroc = first.words.size() >= 8 && is_ns(first);
     if (!is_euroc && first.words.size() != 8) {
       refuse(first, fmt::format("{} numbers; valid: {}", first.words.size(), kFormats));
     }
@@ -72,7 +73,7 @@ class PoseParser {
       const size_t w = is_euroc ? 4 : 7, x = is_euroc ? 5 : 4;
       poses.push_back(
           {0.0, from_E(line, p, {number(line, w), number(line, x), number(line, x + 1), number(line, x + 2)})});
-      stamps_ns_.push_back(is_euroc ? nanoseconds(line, "") : nanoseconds(line, "s"));
+      stamps_ns_.push_back(nanoseconds(line, is_euroc));
     }
     return timed(std::move(poses));
   }
@@ -90,10 +91,24 @@ class PoseParser {
     return parsed.member;
   }
 
-  /// Returns the time in the first column, ns; a double would lose digits.
-  int64_t nanoseconds(const Line& line, std::string_view unit) const {
+  /// Whether the time in the first column is in ns, not in s.
+  bool is_ns(const Line& line) const {
+    constexpr double kMinNs = 1e12;
+    return std::abs(number(line, 0)) >= kMinNs && line.words[0].find('.') == std::string::npos;
+  }
+
+  /// @param t_s  as the file states it, in its unit.
+  void require_near(const Line& line, double t_s, const std::string& word) const {
+    constexpr double kMaxS = 4e9;  // the difference of two such times in ns has 64 bits
+    if (!(std::abs(t_s) <= kMaxS))
+      refuse(line, fmt::format("the time {} is beyond {:g} s; state the time in s", word, kMaxS));
+  }
+
+  /// Returns the time in the first column, ns; a double would lose digits. @param in_ns  unit of the column, else s.
+  int64_t nanoseconds(const Line& line, bool in_ns) const {
     const std::string& word = line.words[0];
-    if (unit.empty()) {
+    require_near(line, number(line, 0) * (in_ns ? 1e-9 : 1.0), word);
+    if (in_ns) {
       const auto parsed = parse_signed(word);
       if (!parsed) refuse(line, fmt::format("expected a time in whole ns, got '{}'", word));
       return *parsed;
@@ -174,6 +189,7 @@ class PoseParser {
       throw InputError(fmt::format("{}: the poses of a trajectory.csv are those of the body; remove --pose-of", file_));
     }
     lines_.erase(lines_.begin());
+    std::optional<bool> in_ns;  // as the first time
     std::vector<TimedPose> poses;
     for (Line& line : lines_) {
       if (line.words.size() != header.words.size()) {
@@ -188,12 +204,14 @@ class PoseParser {
                          Eigen::AngleAxisd(value(4), Eigen::Vector3d::UnitX()))
                             .toRotationMatrix();
         X_WB.translation() = p;
+        require_near(line, value(0), line.words[columns.at("t")]);
         poses.push_back({value(0), X_WB});
         continue;
       }
       poses.push_back({0.0, from_E(line, p, {value(7), value(4), value(5), value(6)})});
       std::swap(line.words[0], line.words[columns.at("t")]);
-      stamps_ns_.push_back(nanoseconds(line, "s"));
+      in_ns = in_ns.value_or(is_ns(line));
+      stamps_ns_.push_back(nanoseconds(line, *in_ns));
     }
     if (poses.empty()) throw InputError(fmt::format("{}: has no poses", file_));
     return is_own ? poses : timed(std::move(poses));

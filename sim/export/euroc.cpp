@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "sim/config/numbers.h"
+#include "sim/config/outline_texts.h"
 #include "sim/record/table.h"
 
 namespace hedgehop::sim {
@@ -17,11 +19,17 @@ const std::filesystem::path kRoot = "mav0";
 
 std::filesystem::path camera_folder(size_t camera) { return kRoot / fmt::format("cam{}", camera); }
 
+std::string list(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(yaml_1_1_number(number));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 std::string pose(const Eigen::Isometry3d& X) {
   std::string text = "T_BS:\n  cols: 4\n  rows: 4\n  data: [";
   for (int row = 0; row < 4; ++row) {
     const Eigen::RowVector4d r = X.matrix().row(row);
-    text += fmt::format("{}{}, {}, {}, {}", row == 0 ? "" : ",\n         ", r[0], r[1], r[2], r[3]);
+    text += fmt::format("{}{}", row == 0 ? "" : ",\n         ", list({r.begin(), r.end()}));
   }
   return text + "]\n";
 }
@@ -65,8 +73,8 @@ std::string camera_sensor(const RecordedCamera& camera) {
   return fmt::format(
       "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: {}\n"
       "intrinsics: [{}]\ndistortion_model: {}\ndistortion_coefficients: [{}]\n",
-      camera.role, pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.camera_model,
-      fmt::join(lens.intrinsics, ", "), lens.distortion_model, fmt::join(lens.distortion, ", "));
+      yaml_quoted(camera.role), pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.camera_model,
+      list(lens.intrinsics), lens.distortion_model, list(lens.distortion));
 }
 
 std::string camera_data(const RecordedCamera& camera) {
@@ -79,8 +87,9 @@ std::string imu_sensor(const dynamics::sensors::ImuConfig& imu) {
   return fmt::format(
       "sensor_type: imu\ncomment: of the flight computer\n{}rate_hz: {}\ngyroscope_noise_density: {}\n"
       "gyroscope_random_walk: {}\naccelerometer_noise_density: {}\naccelerometer_random_walk: {}\n",
-      pose(Eigen::Isometry3d::Identity()), imu.rate_hz, imu.gyro_noise_density, imu.gyro_bias_walk,
-      imu.accelerometer_noise_density, imu.accelerometer_bias_walk);
+      pose(Eigen::Isometry3d::Identity()), imu.rate_hz, yaml_1_1_number(imu.gyro_noise_density),
+      yaml_1_1_number(imu.gyro_bias_walk), yaml_1_1_number(imu.accelerometer_noise_density),
+      yaml_1_1_number(imu.accelerometer_bias_walk));
 }
 
 std::string imu_data(const SensorRecord& record) {

@@ -38,6 +38,7 @@ std::vector<ImageFile> TrueImages::images(size_t camera, const std::string& role
   }
   std::string& last = last_stem_[camera];
   if (!last.empty()) images.push_back({file("flow", last), kitti_flow(tick.flow_to_here(role))});
+  tick.start_flow(role);
   last = stem;
   return images;
 }

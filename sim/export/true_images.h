@@ -30,7 +30,7 @@ enum class DepthFormat {
 /// The ground-truth images of a data set, in `truth/cam0..`: `depth/`, `labels/` and `semantic/` (16 bit, as
 /// ImageChannel), `moving/` (255 on moving obstacles) and `flow/` (to the next image of the camera; 16 bit, red
 /// 64 u + 32768, green 64 v + 32768, blue 1 if known, as in KITTI [MenzeGeiger2015] sec. 4). A file has the name of its
-/// image. The last image has no flow.
+/// image. The next image is the next one of the data set. The last image has no flow.
 class TrueImages {
  public:
   explicit TrueImages(DepthFormat depth) : depth_(depth) {}

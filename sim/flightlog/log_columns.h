@@ -66,8 +66,8 @@ template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<LogColumnsConfig> auto& c) {
   v("axes", c.axes,
     {.choices = {"frd", "flu"},
-     .meaning = "axes of the log: frd (world north-east-down, body forward-right-down) or flu (world with z up, body "
-                "forward-left-up)"});
+     .meaning = "axes of the log, of its states and of commanded velocity, heading and torques: frd (world "
+                "north-east-down, body forward-right-down) or flu (world with z up, body forward-left-up)"});
   v("inputs", c.inputs,
     {.choices = {"motor_speeds", "pwm", "controls", "setpoints", "control_positions"},
      .meaning = "recorded inputs; default: the first of these whose columns the log has; control_positions, in the "

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "sim/config/input_error.h"
@@ -65,6 +66,26 @@ void add_force(const LogPart& part, Replay& replay, double mass_kg, double& sum_
   count += forces.size();
 }
 
+/// Refuses logs that no linear model can be fitted to together.
+void require_equal_inputs(std::span<const RecordedFlight> flights) {
+  constexpr std::array<std::string_view, 5> kKinds = {"motor_speeds", "pwm", "controls", "setpoints",
+                                                      "control_positions"};
+  constexpr double kMaxRatio = 1.1;  // of the periods; clocks differ by less
+  const RecordedFlight& first = flights.front();
+  for (const RecordedFlight& other : flights.subspan(1)) {
+    if (other.kind != first.kind || other.inputs.cols() != first.inputs.cols()) {
+      throw InputError(fmt::format("{} has {} columns of {}, {} has {} of {}; logs of one call need the same inputs",
+                                   first.name, first.inputs.cols(), kKinds.at(static_cast<size_t>(first.kind)),
+                                   other.name, other.inputs.cols(), kKinds.at(static_cast<size_t>(other.kind))));
+    }
+    if (std::max(first.period_s, other.period_s) > kMaxRatio * std::min(first.period_s, other.period_s)) {
+      throw InputError(
+          fmt::format("{} has a sample every {:.4g} s, {} every {:.4g} s; logs of one call need the same rate",
+                      first.name, first.period_s, other.name, other.period_s));
+    }
+  }
+}
+
 }  // namespace
 
 LogPart part_of(const RecordedFlight& flight, LogShare share, double split) {
@@ -85,6 +106,7 @@ LogPart part_of(const RecordedFlight& flight, LogShare share, double split) {
 LogComparison compare_logs(const dynamics::VehicleConfig& vehicle, std::span<const RecordedFlight> flights,
                            const ComparisonPlan& plan) {
   constexpr std::array<LogShare, 2> kHalves = {LogShare::first, LogShare::second};
+  require_equal_inputs(flights);
   Replay replay(vehicle);
   std::vector<Sums> sums(plan.horizons_s.size());
   LogComparison out;

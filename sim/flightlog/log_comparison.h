@@ -41,7 +41,8 @@ LogPart part_of(const RecordedFlight& flight, LogShare share, double split);
 
 /// Compares a vehicle with logs of its flights. A window lies in one part of its log. The linear model of a window is
 /// fitted to the other part of all logs.
-/// Throws std::invalid_argument if the vehicle cannot fly, InputError if no window fits into the logs.
+/// Throws std::invalid_argument if the vehicle cannot fly, InputError if no window fits into the logs, or if their
+/// inputs or rates differ. @param flights  at least one.
 LogComparison compare_logs(const dynamics::VehicleConfig& vehicle, std::span<const RecordedFlight> flights,
                            const ComparisonPlan& plan);
 

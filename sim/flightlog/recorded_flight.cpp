@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "sim/config/input_error.h"
@@ -135,6 +136,16 @@ void apply_duty(Eigen::MatrixXd& inputs, const DutySpeedConfig& pwm, const Quant
   }
 }
 
+/// Reverses the inputs along and about the axes y and z, of a log with axes flu. Altitude and thrust are upwards in
+/// both.
+void reverse_inputs(Eigen::MatrixXd& inputs, const Names& names) {
+  constexpr std::array<std::string_view, 4> kReversed = {"cmd_v_east_mps", "cmd_heading_rad", "pitch_torque_nm",
+                                                         "yaw_torque_nm"};
+  for (size_t k = 0; k < names.size(); ++k) {
+    if (std::ranges::find(kReversed, names[k]) != kReversed.end()) inputs.col(static_cast<Eigen::Index>(k)) *= -1.0;
+  }
+}
+
 void read_inputs(RecordedFlight& flight, const Quantities& log, const LogColumnsConfig& config,
                  const dynamics::VehicleConfig& vehicle) {
   const auto kinds = input_columns(vehicle);
@@ -153,6 +164,7 @@ void read_inputs(RecordedFlight& flight, const Quantities& log, const LogColumns
       flight.inputs.col(static_cast<Eigen::Index>(k)) =
           Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     }
+    if (config.axes == LogColumnsConfig::Axes::flu) reverse_inputs(flight.inputs, names);
     if (kind == Inputs::pwm) apply_duty(flight.inputs, config.pwm, log);
     return;
   }

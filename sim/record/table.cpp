@@ -9,6 +9,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
+#include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -48,7 +49,7 @@ std::string unquoted(std::string_view field) {
 
 Table::Table(const std::filesystem::path& file) : parsed_(false) {
   auto source = std::make_shared<Source>(Source{.file = file.string(), .text = read_file_whole(file)});
-  std::string_view rest = source->text;
+  std::string_view rest = without_utf8_mark(source->text);
   for (size_t number = 1, lines = 0; !rest.empty(); number += lines) {
     std::vector<std::string_view> fields;
     lines = take_record(rest, fields);
@@ -76,10 +77,10 @@ void Table::add(Column column) {
 
 void Table::append(Table more) {
   const size_t rows = rows_ + more.rows_;
-  const auto as_words = [](Column& column, size_t count) {
+  const auto as_words = [](Column& column) {
     Table one;
     one.add(column);
-    column.values = one.columns_.empty() ? std::vector<std::string>(count) : one.words(column.name);
+    column.values = one.words(column.name);
     column.whole = false;
   };
   size_t at = 0;
@@ -97,8 +98,8 @@ void Table::append(Table more) {
     }
     at = static_cast<size_t>(own - columns_.begin()) + 1;
     if (own->values.index() != column.values.index()) {
-      as_words(*own, rows_);
-      as_words(column, more.rows_);
+      as_words(*own);
+      as_words(column);
     }
     own->whole = own->whole && column.whole;
     std::visit(

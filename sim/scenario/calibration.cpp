@@ -7,13 +7,14 @@
 #include <stdexcept>
 
 #include "sim/config/numbers.h"
+#include "sim/config/outline_texts.h"
 
 namespace hedgehop::sim {
 namespace {
 
 std::string list(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(number_text(number + 0.0, false));  // no -0
+  for (const double number : numbers) texts.push_back(yaml_1_1_number(number + 0.0));  // no -0
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
@@ -88,6 +89,12 @@ KalibrLens kalibr_lens(const std::string& role, const Intrinsics& lens) {
       break;
   }
   return kalibr;
+}
+
+/// Returns the topic of a camera's images, quoted only if its role is no word.
+std::string topic_text(const std::string& role) {
+  const std::string topic = fmt::format("/{}/image_raw", role);
+  return yaml_quoted(role) == role ? topic : yaml_quoted(topic);
 }
 
 /// OpenCV's reader takes keys literally, without quotes.
@@ -183,8 +190,8 @@ std::string kalibr_calibration(std::span<const CameraConfig> cameras, const dyna
     text +=
         fmt::format("cam{}:\n  camera_model: {}\n  intrinsics: {}\n  distortion_model: {}\n  distortion_coeffs: {}\n",
                     i, lens.camera_model, list(lens.intrinsics), lens.distortion_model, list(lens.distortion));
-    text += fmt::format("  resolution: [{}, {}]\n  rostopic: /{}/image_raw\n", camera.width_px, camera.height_px,
-                        config.role);
+    text += fmt::format("  resolution: [{}, {}]\n  rostopic: {}\n", camera.width_px, camera.height_px,
+                        topic_text(config.role));
     text += kalibr_pose(
         "T_cam_imu", config.camera_from_imu.empty() ? X_FC(imu, config).inverse() : as_stated(config.camera_from_imu));
     if (i > 0) text += kalibr_pose("T_cn_cnm1", config.X_BC().inverse() * cameras[i - 1].X_BC());

@@ -194,6 +194,8 @@ std::vector<CalibratedCamera> read_chain(const Node& root) {
     read_named_model(map, camera.config);
     if (const Node* const pose = map.find("T_cam_imu")) {
       camera.config.camera_from_imu = numbers(*pose, 16, "T_cam_imu");
+    } else if (const Node* const inverse = map.find("T_imu_cam")) {  // of OpenVINS
+      camera.config.imu_from_camera = numbers(*inverse, 16, "T_imu_cam");
     } else if (const Node* const relative = map.find("T_cn_cnm1"); relative && !cameras.empty()) {
       camera.config.camera_from_previous = numbers(*relative, 16, "T_cn_cnm1");
     }
@@ -221,16 +223,20 @@ CalibratedCamera read_matrix_camera(const Node& map, std::string name) {
       find(map, {"distortion_coefficients", "distCoeffs", "dist_coeffs", "distortion", "D", "d"});
   const std::vector<double> k = coefficients ? numbers(*coefficients) : std::vector<double>{};
   const Node& place = coefficients ? *coefficients : map;
-  const std::string_view kind = text_of(map.find("camera_model"));
-  const std::string_view named = text_of(map.find("distortion_model"));
-  const Node* const flag = map.find("fisheye_model");
+  constexpr std::array<std::string_view, 3> kKinds = {"pinhole", "fisheye", "omnidir"};
+  const Node* const model = map.find("camera_model");
+  const std::string_view kind = text_of(model);
+  if (!kind.empty() && std::ranges::find(kKinds, kind) == kKinds.end()) {
+    refuse(*model, fmt::format("unknown camera model '{}'; valid: {}", kind, fmt::join(kKinds, ", ")));
+  }
+  const std::string_view named = text_of(map.find("distortion_model")), flag = text_of(map.find("fisheye_model"));
   if (!named.empty()) {
     set_lens(config, "pinhole", named, *map.find("distortion_model"), k);
   } else if (kind == "omnidir") {
     set_lens(config, "omni", "radtan", place, k);
     const Node& xi = get(map, {"xi"});
     config.xi = xi.kind == Node::Kind::scalar ? number(xi) : numbers(xi, 1, "xi")[0];
-  } else if (kind == "fisheye" || (flag && text_of(flag) == "1")) {
+  } else if (kind == "fisheye" || flag == "1") {
     set_fisheye(config, place, k);
   } else {
     set_pinhole(config, place, k);

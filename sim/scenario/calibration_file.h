@@ -23,7 +23,7 @@ struct CalibratedCamera {
 /// - camera_info of ROS: plumb_bob, rational_polynomial, equidistant;
 /// - FileStorage of OpenCV, YAML or XML: 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir, one camera, a map of
 /// cameras, or a pair with M1, D1, M2, D2 and perhaps R and T.
-/// Throws InputError with file, line and the valid values, also for a model that is not implemented (thin
+/// Throws InputError with file, line and the valid values, also for a model that is unknown or not implemented (thin
 /// prism, tilted, extended unified, fov). @param file  name for messages.
 std::vector<CalibratedCamera> parse_calibration(const std::string& text, const std::string& file);
 

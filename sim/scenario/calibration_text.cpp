@@ -40,12 +40,22 @@ Node parse_xml(const std::string& text, const std::string& file) {
   }
 }
 
+/// Cuts the end of a document, which `ros2 topic echo` writes after each message.
+void cut_document_end(std::string& text) {
+  const size_t end = text.find_last_not_of(" \t\r\n");
+  const size_t line = end == std::string::npos ? end : text.rfind('\n', end);
+  if (line == std::string::npos) return;
+  const std::string last = text.substr(line + 1, end - line);
+  if (last == "---" || last == "...") text.erase(line + 1);
+}
+
 /// Parses YAML with OpenCV's header and tags, which standard YAML lacks.
 Node parse_yaml_of_opencv(std::string text, const std::string& file) {
   constexpr std::string_view kTag = "!!opencv-";
   for (size_t at = text.find(kTag); at != std::string::npos; at = text.find(kTag, at)) {
     text.erase(at, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + kTag.size()) - at);
   }
+  cut_document_end(text);
   if (text.starts_with("%YAML")) text.erase(0, std::min(text.find('\n'), text.size()));
   ErrorList errors("calibration");
   Node root = parse_yaml(text, file, errors);

@@ -160,7 +160,8 @@ struct PathToleranceCheck {
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<PathToleranceCheck> auto& c) {
-  v("reference", c.reference, {.required = true, .meaning = "CSV file of the reference, relative to the scenario"});
+  v("reference", c.reference,
+    {.required = true, .meaning = "CSV file of the reference, relative to the file with this key"});
   v("at_most", c.at_most_m, {.unit = "m", .above = 0.0, .required = true, .meaning = "maximum deviation"});
   v("measure", c.measure,
     {.choices = {"band", "frechet", "dtw"},

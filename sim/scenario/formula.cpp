@@ -155,6 +155,7 @@ class Parser {
     const Token& token = tokens_.next();
     if (token.kind == Token::Kind::number) return {.number = tokens_.take().number};
     if (token.kind != Token::Kind::word) tokens_.refuse("expected a number or a signal");
+    if (token.text == "status") tokens_.refuse("'status' is no number; valid: status == WORD, status != WORD");
     std::vector<std::string_view> names{"status"};
     for (const FormulaSignal& signal : formula_signals()) names.push_back(signal.name);
     if (std::ranges::find(names, token.text) == names.end()) {
@@ -245,15 +246,29 @@ const std::vector<FormulaSignal>& formula_signals() {
       {"pitch", "deg", "nose up"},
       {"heading", "deg", "-180 to 180, from north to east"},
       {"tilt", "deg", "of the body's down axis to the vertical"},
-      {"goal_distance", "m", "horizontal; 0 without a goal"},
+      {"goal_distance", "m", "horizontal; the scenario must have a goal"},
       {"wind", "m/s", "speed of the air"},
-      {"tracking_error", "m/s", "difference of horizontal velocity and command; 0 without a velocity command"},
+      {"tracking_error", "m/s", "difference of horizontal and commanded velocity; unknown without a command"},
       {"estimation_error", "m", "distance of the estimated and the true position"},
   };
   return signals;
 }
 
 Formula parse_formula(std::string_view text) { return Parser(text).whole(); }
+
+namespace {
+
+bool uses_signal(const Expression& expression, std::string_view signal) {
+  return expression.signal == signal ||
+         std::ranges::any_of(expression.of, [&](const Expression& part) { return uses_signal(part, signal); });
+}
+
+}  // namespace
+
+bool uses_signal(const Formula& formula, std::string_view signal) {
+  return uses_signal(formula.margin, signal) ||
+         std::ranges::any_of(formula.of, [&](const Formula& part) { return uses_signal(part, signal); });
+}
 
 double horizon_s(const Formula& formula) {
   double horizon = 0.0;

@@ -54,13 +54,17 @@ struct Formula {
 /// Reads a formula:
 ///
 ///     f := g ['->' f]      g := h {'or' h}      h := u {'and' u}      u := n {'until' [I] n}
-///     n := ('not' | 'always' [I] | 'eventually' [I]) n | e ('<' | '<=' | '>' | '>=') e | 'status' ('==' | '!=') WORD |
-///     '(' f ')' e := numbers, signals, + - * / abs(e) min(e, e) max(e, e) ( )      I := '[' SECONDS ',' (SECONDS |
-///     'end') ']'
+///     n := ('not' | 'always' [I] | 'eventually' [I]) n
+///        | e ('<' | '<=' | '>' | '>=') e | 'status' ('==' | '!=') WORD | '(' f ')'
+///     e := numbers, signals, + - * / abs(e) min(e, e) max(e, e) ( )
+///     I := '[' SECONDS ',' (SECONDS | 'end') ']'
 ///
 /// Throws std::invalid_argument "column 9: no signal 'clearence'; did you mean 'clearance'? ...".
 /// Source: [DonzeMaler2010] sec. on signal temporal logic.
 Formula parse_formula(std::string_view text);
+
+/// Returns whether a formula names a numeric signal.
+bool uses_signal(const Formula& formula, std::string_view signal);
 
 /// Returns the minimum horizon of a formula, s: the sum along nested intervals; 'end' counts as its beginning.
 double horizon_s(const Formula& formula);

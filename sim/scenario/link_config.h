@@ -155,7 +155,10 @@ void describe(Visitor& v, fields::ConfigOf<ArduPilotLinkConfig> auto& c) {
   v("companion", c.companion, {.meaning = "messages to the autopilot over its serial line"});
   v("range_finders", c.range_finders, {.meaning = "up to 6 range finders (RNGFNDi_TYPE 100): true distances"});
   v("silence", c.silence_s,
-    {.unit = "s", .above = 0.0, .at_most = 3600.0, .meaning = "wall time without a packet that ends the flight"});
+    {.unit = "s",
+     .above = 0.0,
+     .at_most = 3600.0,
+     .meaning = "wall time without a new packet after which the flight ends; a repeated packet is not new"});
   v("resend_after", c.resend_s,
     {.unit = "s",
      .above = 0.0,

@@ -75,12 +75,13 @@ std::string frame_names() {
 }
 
 MotorMatch match_motors(const dynamics::multicopter::MulticopterConfig& vehicle, int64_t frame_class,
-                        int64_t frame_type) {
+                        int64_t frame_type, std::string_view path) {
   MotorMatch match;
   const std::span<const FrameMotor> motors = frame_motors(frame_class, frame_type);
   if (motors.empty()) {
-    match.errors.push_back({"link.multicopter.frame_type", fmt::format("FRAME_CLASS {}, TYPE {} is unknown; valid: {}",
-                                                                       frame_class, frame_type, frame_names())});
+    match.errors.push_back(
+        {fmt::format("{}.frame_type", path),
+         fmt::format("FRAME_CLASS {}, TYPE {} is unknown; valid: {}", frame_class, frame_type, frame_names())});
     return match;
   }
   if (vehicle.arms.size() != motors.size()) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/multicopter/multicopter.h"
@@ -30,8 +31,9 @@ struct MotorMatch {
   std::vector<FieldError> errors;    ///< their paths begin with "vehicle" or "link"
 };
 /// Matches each arm with the motor of the same azimuth, within 10 degrees, and the same sense of rotation. In frames
-/// with two motors on an arm, the order of both is that of the arms.
+/// with two motors on an arm, the order of both is that of the arms. @param path  of the map with frame_class and
+/// frame_type, for errors: "link" for PX4.
 MotorMatch match_motors(const dynamics::multicopter::MulticopterConfig& vehicle, int64_t frame_class,
-                        int64_t frame_type);
+                        int64_t frame_type, std::string_view path = "link.multicopter");
 
 }  // namespace hedgehop::sim

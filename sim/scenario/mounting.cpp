@@ -10,7 +10,6 @@
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/fields/invalid_field.h"
-#include "sim/libm/random.h"
 #include "sim/scenario/calibration.h"
 #include "sim/scenario/calibration_file.h"
 #include "sim/scenario/calibration_text.h"
@@ -40,6 +39,10 @@ Eigen::Isometry3d pose(const std::vector<double>& numbers, std::string_view key)
   return X;
 }
 
+void clear_matrices(CameraConfig& c) {
+  for (std::vector<double>* matrix : {&c.body_from_camera, &c.imu_from_camera, &c.camera_from_imu}) matrix->clear();
+}
+
 std::vector<double> row_by_row(const Eigen::Isometry3d& X) {
   std::vector<double> numbers;
   for (const auto& row : X.matrix().rowwise()) numbers.insert(numbers.end(), row.begin(), row.end());
@@ -51,10 +54,36 @@ bool has_matrix(const CameraConfig& c) {
          !c.camera_from_previous.empty();
 }
 
+/// Return the first key of the position or of the angles that is not 0, or "".
+std::string_view position_key(const CameraConfig& c) {
+  return c.forward_m != 0.0 ? "forward" : c.right_m != 0.0 ? "right" : c.down_m != 0.0 ? "down" : "";
+}
+std::string_view angle_key(const CameraConfig& c) {
+  return c.yaw_rad != 0.0 ? "yaw" : c.pitch_rad != 0.0 ? "pitch" : c.roll_rad != 0.0 ? "roll" : "";
+}
+
 /// Whether position or angles are set.
 bool has_mounting(const CameraConfig& c) {
-  return c.forward_m != 0.0 || c.right_m != 0.0 || c.down_m != 0.0 || c.yaw_rad != 0.0 || c.pitch_rad != 0.0 ||
-         c.roll_rad != 0.0 || !c.quaternion.empty();
+  return !position_key(c).empty() || !angle_key(c).empty() || !c.quaternion.empty();
+}
+
+/// Refuses a pose that is stated twice.
+void require_one_pose(const CameraConfig& c) {
+  std::string_view first;
+  const auto state = [&](std::string_view key, bool is_stated) {
+    if (!is_stated) return;
+    require(first.empty(), key,
+            fmt::format("'{}' states the pose already; valid: one matrix, or a position with a quaternion or with yaw, "
+                        "pitch and roll",
+                        first));
+    first = key;
+  };
+  state("body_from_camera", !c.body_from_camera.empty());
+  state("imu_from_camera", !c.imu_from_camera.empty());
+  state("camera_from_imu", !c.camera_from_imu.empty());
+  if (!first.empty()) state(position_key(c), !position_key(c).empty());
+  state("quaternion", !c.quaternion.empty());
+  state(angle_key(c), !angle_key(c).empty());
 }
 
 /// Whether a camera states its size. The default counts if the optical axis of the calibration is near its middle.
@@ -184,6 +213,7 @@ void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
 }  // namespace
 
 Eigen::Isometry3d CameraConfig::X_BC() const {
+  require_one_pose(*this);
   dynamics::sensors::ImuConfig imu{.p_BI_m = p_BI_m};
   const auto from_F = [&](const Eigen::Isometry3d& X_FC) { return X_FB(imu).inverse() * X_FC; };
   if (!body_from_camera.empty()) return pose(body_from_camera, "body_from_camera");
@@ -228,19 +258,27 @@ void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
     at(fmt::format("stereo.{}", i), [&] {
       CameraConfig& camera = rig.stereo[i].camera;
       if (camera.role.empty()) camera.role = "left";
+      camera.p_BI_m = p_BI_m;
+      const bool states_matrix = has_matrix(camera);
       apply_own_calibration(camera, /*is_pair=*/true, rig.read_calibrations);
-      for (std::vector<double>* matrix : {&camera.body_from_camera, &camera.imu_from_camera, &camera.camera_from_imu}) {
-        matrix->clear();
-      }
+      // A calibrated pose is that of one camera, not of the pair's middle.
+      if (!states_matrix) clear_matrices(camera);
+      camera.X_BC();  // may throw
     });
   }
   apply_rig_calibration(rig, p_BI_m);
   for (CameraConfig& camera : rig.cameras) camera.p_BI_m = p_BI_m;
   for (const StereoConfig& pair : rig.stereo) {
-    const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * pair.camera.X_BC().linear().col(0);
+    const Eigen::Isometry3d X_BC = pair.camera.X_BC();
+    const Eigen::Vector3d half_B = 0.5 * pair.baseline_m * X_BC.linear().col(0);
     for (const double side : {-1.0, 1.0}) {
       CameraConfig& camera = rig.cameras.emplace_back(pair.camera);
       camera.role = (pair.role.empty() ? "" : pair.role + "_") + (side < 0.0 ? "left" : "right");
+      if (has_matrix(pair.camera)) {
+        clear_matrices(camera);
+        camera.body_from_camera = row_by_row(Eigen::Translation3d(side * half_B) * X_BC);
+        continue;
+      }
       camera.forward_m += side * half_B.x();
       camera.right_m += side * half_B.y();
       camera.down_m += side * half_B.z();
@@ -255,21 +293,6 @@ void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
     if (has_images && !camera.imperfections) camera.imperfections = rig.sensor;
   }
   rig.sensor.reset();
-}
-
-double pixel_angle_rad(const vision::camera::Camera& camera) {
-  const Eigen::Vector3d axis_C = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d below_C = *camera.unit_ray(*camera.project(axis_C) + Eigen::Vector2d(0.0, 1.0));
-  return std::atan2(axis_C.cross(below_C).norm(), axis_C.dot(below_C));
-}
-
-Eigen::Isometry3d true_X_BC(const CameraConfig& camera, const vision::camera::Camera& model, uint64_t seed) {
-  if (camera.row_error_px == 0.0 && camera.side_error_m == 0.0) return camera.X_BC();
-  const uint64_t bits = stream_seed(seed, "calibration." + camera.role);
-  const double row_sign = (bits & 1U) != 0 ? 1.0 : -1.0, side_sign = (bits & 2U) != 0 ? 1.0 : -1.0;
-  const double turn_rad = row_sign * camera.row_error_px * pixel_angle_rad(model);
-  return camera.X_BC() * Eigen::Translation3d(side_sign * camera.side_error_m, 0.0, 0.0) *
-         Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitX());
 }
 
 }  // namespace hedgehop::sim

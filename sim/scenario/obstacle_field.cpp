@@ -43,6 +43,12 @@ double field_number(const Node& node) {
 
 double field_number(const Node& map, std::string_view key) { return field_number(field_key(map, key)); }
 
+bool field_bool(const Node& node) {
+  if (node.text == "true" || node.text == "True") return true;
+  if (node.text == "false" || node.text == "False") return false;
+  refuse_field(node, fmt::format("expected true or false, got {}", node.description()));
+}
+
 Node read_field_yaml(const fs::path& file) {
   ErrorList errors("obstacle field");
   Node root = parse_yaml(read_file_whole(file), file.string(), errors);
@@ -127,7 +133,7 @@ MoverConfig flightmare_mover(const Entry& object, const fs::path& folder) {
   const Node& scale = field_key(object.value, "scale");
   if (scale.items.size() != 3) refuse_field(scale, "expected 3 numbers");
   const std::string table = field_key(object.value, "csvtraj").text + ".csv";
-  const bool restarts = field_key(object.value, "loop").text == "true";
+  const bool restarts = field_bool(field_key(object.value, "loop"));
   using Repeat = scenes::TableMotion::Repeat;
   return {.name = object.key,
           .shape = MoverConfig::Shape::cuboid,

@@ -59,8 +59,11 @@ std::vector<TimedPoint> thinned(const std::vector<TimedPoint>& points, double st
 std::string reference_text(const ReferencePath& reference) {
   std::string text = fmt::format("# reason: {}\n# version: {}\n# seed: {}\n# step_s: {}\n{}\n", reference.reason,
                                  reference.version, reference.seed, reference.step_s, kHeader);
-  for (const TimedPoint& p : reference.points) {
-    text += fmt::format("{:.3f},{:.3f},{:.3f},{:.3f}\n", p.t_s, p.p_WB.x(), p.p_WB.y(), -p.p_WB.z());
+  const auto time_text = [](const TimedPoint& p) { return fmt::format("{:.3f}", p.t_s); };
+  for (size_t i = 0; i < reference.points.size(); ++i) {
+    const TimedPoint& p = reference.points[i];
+    if (i + 1 < reference.points.size() && time_text(p) == time_text(reference.points[i + 1])) continue;
+    text += fmt::format("{},{:.3f},{:.3f},{:.3f}\n", time_text(p), p.p_WB.x(), p.p_WB.y(), -p.p_WB.z());
   }
   return text;
 }

@@ -26,7 +26,8 @@ struct ReferencePath {
 /// Every `step_s` a point, and the last one. @param points  times rise.
 std::vector<TimedPoint> thinned(const std::vector<TimedPoint>& points, double step_s);
 
-/// Text of a reference file: `# key: value` lines, then a table of t_s, north_m, east_m, altitude_m with millimeters.
+/// Text of a reference file: `# key: value` lines, then a table of t_s, north_m, east_m, altitude_m with milliseconds
+/// and millimeters. Of points in the same millisecond, it has the last one.
 std::string reference_text(const ReferencePath& reference);
 
 /// Reads it back. Throws std::invalid_argument naming the file and the line when it cannot be read, holds no point, or

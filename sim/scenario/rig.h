@@ -114,7 +114,8 @@ struct CameraConfig {
 
   /// Returns the calibrated pose of the camera in B: that of its matrix, or the mounting position, and the quaternion,
   /// or yaw about down, pitch about right, roll about forward, in this order, from a camera that looks forward. Yaw 90
-  /// deg looks right, pitch -90 deg looks down. Throws fields::InvalidField for a matrix or quaternion that is no pose.
+  /// deg looks right, pitch -90 deg looks down. Throws fields::InvalidField for a matrix or quaternion that is no pose,
+  /// and for a pose that is stated twice.
   Eigen::Isometry3d X_BC() const;
   /// Throws fields::InvalidField for values out of bounds, keys that contradict each other, or an invalid calibration
   /// file.
@@ -214,7 +215,7 @@ struct StereoConfig {
   double baseline_m = 0.3;
   double row_error_px = 0.0;
   double baseline_error = 0.0;  ///< share of the baseline
-  CameraConfig camera;          ///< its mounting position is the middle of the pair
+  CameraConfig camera;          ///< its pose is that of the middle of the pair
 };
 
 template <class Visitor>

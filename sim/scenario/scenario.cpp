@@ -95,6 +95,17 @@ void resolve_files(std::optional<LinkConfig>& link, const Node& root) {
   }
 }
 
+/// Makes the paths of reference trajectories absolute. @param folder  of the scenario, for `--set`.
+void resolve_files(std::vector<CheckConfig>& checks, const Node& root, const std::filesystem::path& folder) {
+  for (size_t i = 0; i < checks.size(); ++i) {
+    auto* const path = std::get_if<PathToleranceCheck>(&checks[i]);
+    if (!path) continue;
+    const SourcePosition at = position_of(root, fmt::format("checks.{}.reference", i));
+    const std::filesystem::path from = at.line > 0 ? std::filesystem::path(at.file).parent_path() : folder;
+    path->reference = std::filesystem::absolute(from / path->reference).lexically_normal().string();
+  }
+}
+
 /// Refuses a file of another kind by one error that names the kind, instead of an error per key.
 void require_scenario(const Node& root, ErrorList& errors) {
   struct FileKind {
@@ -131,11 +142,7 @@ LoadedScenario load_flight(Node root, const std::filesystem::path& file, std::sp
   if (seed) scenario.seed = *seed;
   resolve_files(scenario.scene, root);
   resolve_files(scenario.link, root);
-  for (CheckConfig& check : scenario.checks) {
-    if (auto* path = std::get_if<PathToleranceCheck>(&check)) {
-      path->reference = std::filesystem::absolute(file.parent_path() / path->reference).lexically_normal().string();
-    }
-  }
+  resolve_files(scenario.checks, root, file.parent_path());
   Validation found = validate(scenario);
   for (const FieldError& error : found.errors) errors.add(position_of(root, error.path), error.text());
   errors.throw_if_any();

@@ -89,7 +89,7 @@ class Validator {
         cameras[i].X_BC();
       });
       imperfections(path + ".imperfections", cameras[i]);
-      if (cameras[i].role.empty()) add(path + ".role", "must not be empty");
+      if (std::string fault = name_fault(cameras[i].role); !fault.empty()) add(path + ".role", std::move(fault));
       for (size_t j = 0; j < i; ++j) {
         if (cameras[j].role == cameras[i].role) {
           add(path + ".role", fmt::format("'{}' has the role '{}' already", camera_path(j), cameras[i].role));

@@ -96,7 +96,10 @@ class CheckValidator {
       add(path + ".name", fmt::format("'{}' is another check's name", check.name));
     }
     unless_valid(path + ".formula", [&] {
-      const double ahead_s = horizon_s(parse_formula(check.formula));
+      const Formula formula = parse_formula(check.formula);
+      if (!scenario_.goal && uses_signal(formula, "goal_distance"))
+        add(path + ".formula", "uses 'goal_distance', but the scenario has no goal");
+      const double ahead_s = horizon_s(formula);
       if (ahead_s > scenario_.duration_s) {
         add(path + ".formula",
             fmt::format("looks {:g} s ahead, which is longer than the flight ({:g} s)", ahead_s, scenario_.duration_s));

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <variant>
 
 #include "sim/scenario/motor_frames.h"
@@ -33,7 +35,7 @@ class LinkValidator {
   void motors(const dynamics::multicopter::MulticopterConfig& vehicle) {
     const MulticopterLinkConfig& c = link_.multicopter;
     if (!(c.pwm_min_us < c.pwm_max_us)) add("link.multicopter.pwm_max", "must be greater than pwm_min");
-    errors_ = match_motors(vehicle, c.frame_class, c.frame_type).errors;
+    std::ranges::move(match_motors(vehicle, c.frame_class, c.frame_type).errors, std::back_inserter(errors_));
   }
 
   void swashplate(const HelicopterLinkConfig& c) {
@@ -82,7 +84,7 @@ std::vector<FieldError> errors_of(const Scenario& scenario, const ArduPilotLinkC
 std::vector<FieldError> errors_of(const Scenario& scenario, const Px4LinkConfig& link) {
   const auto* const vehicle = std::get_if<dynamics::multicopter::MulticopterConfig>(&scenario.vehicle);
   if (!vehicle) return {{"link.type", "px4 flies multicopters; the vehicle is a helicopter"}};
-  std::vector<FieldError> errors = match_motors(*vehicle, link.frame_class, link.frame_type).errors;
+  std::vector<FieldError> errors = match_motors(*vehicle, link.frame_class, link.frame_type, "link").errors;
   constexpr int64_t kImuRateHz = 250;  // of PX4's lockstep
   if (scenario.physics_rate_hz && *scenario.physics_rate_hz % kImuRateHz != 0) {
     errors.push_back(

@@ -55,6 +55,13 @@ TEST_F(LockTest, FolderWithoutAccessIsBadInput) {
   EXPECT_THAT(fault(root / "a"), HasSubstr("a: cannot write results: "));
 }
 
+TEST_F(LockTest, LinkToAMissingFolderIsBadInput) {
+  fs::create_directory_symlink(root / "missing", root / "link");
+  EXPECT_THAT(fault(root / "link/inner"), HasSubstr("link: is a link to a missing folder"));
+  EXPECT_THAT(fault(root / "link"), HasSubstr("link: is a link to a missing folder"));
+  EXPECT_TRUE(fs::is_symlink(root / "link"));
+}
+
 TEST_F(LockTest, LeavesNoFilesAndNoEmptyFolders) {
   { const FolderLock lock(root / "new/inner"); }
   EXPECT_TRUE(fs::is_empty(root));

@@ -44,6 +44,15 @@ TEST(Numbers, DegreesAreWrittenAsAPersonWould) {
   }
 }
 
+/// The floats of YAML 1.1, https://yaml.org/type/float.html: with a point and a signed exponent.
+TEST(Numbers, HaveAPointBeforeTheirExponentForReadersOfYaml11) {
+  EXPECT_EQ(yaml_1_1_number(2e-5), "2.0e-05");
+  EXPECT_EQ(yaml_1_1_number(-1.5e-7), "-1.5e-07");
+  EXPECT_EQ(yaml_1_1_number(3e20), "3.0e+20");
+  EXPECT_EQ(yaml_1_1_number(0.25), "0.25");
+  EXPECT_EQ(yaml_1_1_number(400.0), "400");
+}
+
 TEST(Numbers, EveryDoubleComesBackBitForBit) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 50'000; ++i) {

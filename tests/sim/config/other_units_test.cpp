@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/config/include.h"
@@ -59,6 +60,28 @@ TEST(OtherUnits, KeysOfOtherMapsAreNotChanged) {
   const Node root = parse_tree("parameters: {rpm: 870}", "vehicle", errors, read);
   ASSERT_NE(root.find("parameters")->find("rpm"), nullptr);
   EXPECT_EQ(root.find("parameters")->find("rpm")->text, "870");
+}
+
+// Their names and units are the module's own.
+TEST(OtherUnits, ParametersOfForeignModulesAreNotChanged) {
+  const auto base = std::filesystem::path(testing::TempDir()) / "other_units_parameters.yaml";
+  std::ofstream(base) << "main_rotor: {rpm: 1500}\n";
+  const std::string module = "avoidance: {python: a.py, class: A", map = ", parameters: {main_rotor: {rpm: 1500}}}";
+  for (const auto& [yaml, change] : std::vector<std::pair<std::string, std::string>>{
+           {module + map, "a=1"},
+           {module + ", parameters: {use: " + base.string() + "}}", "a=1"},
+           {module + "}", "avoidance.parameters={main_rotor: {rpm: 1500}}"},
+           {module + "}", "avoidance.parameters.main_rotor.rpm=1500"},
+           {module + "}", "avoidance.parameters.main_rotor={rpm: 1500}"}}) {
+    ErrorList errors("scenario");
+    std::set<std::filesystem::path> read;
+    Node root = parse_tree(yaml, "scenario", errors, read);
+    apply_overrides(root, std::vector{change}, "scenario.yaml", errors, read);
+    const Node* const rotor = root.find("avoidance")->find("parameters")->find("main_rotor");
+    ASSERT_NE(rotor->find("rpm"), nullptr) << yaml << " " << change;
+    EXPECT_EQ(rotor->find("rpm")->text, "1500");
+    EXPECT_TRUE(errors.empty());
+  }
 }
 
 }  // namespace

@@ -104,6 +104,40 @@ TEST(Writer, AnyScenarioReadsBackBitForBit) {
   }
 }
 
+/// Keys and unquoted texts of a foreign module that a list or map on one line would cut.
+constexpr const char* kForeign = R"(
+names:
+  - a, b
+  - what?
+  - "[1]"
+"x: y": 1
+"null": 2
+"a, b":
+  - "q#": {c: 1}
+    "d]": [3, 4]
+plain: [http://a/b, 1.5]
+two words: größe
+)";
+
+TEST(Writer, UninterpretedMapsReadBack) {
+  ErrorList faults("scenario");
+  const Node node = parse_yaml(kForeign, "foreign", faults);
+  const auto bits_of_text = [&](const std::string& text) {
+    Bits bits;
+    Node back = parse_yaml(text, "back", faults);
+    bits("", back, {});
+    return bits.bits;
+  };
+  for (const std::string& text : {yaml_text(outline_as_written(node).parts), flow_text(node)}) {
+    EXPECT_EQ(bits_of_text(text), bits_of_text(kForeign)) << text;
+    EXPECT_EQ(text.find("\"plain"), std::string::npos);
+    EXPECT_EQ(text.find("\"two words"), std::string::npos);
+  }
+  EXPECT_NE(yaml_text(outline_as_written(node).parts).find("plain: [http://a/b, 1.5]\ntwo words: größe\n"),
+            std::string::npos);
+  EXPECT_NO_THROW(faults.throw_if_any());
+}
+
 TEST(Writer, WritesPlainYaml) {
   sample::Sample sample;
   sample.rotors = {{2, 0.5}};

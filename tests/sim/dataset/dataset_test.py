@@ -212,6 +212,13 @@ class Dataset(unittest.TestCase):
         self.assertIn("random poses in a row", refused("--images", 1, "--height", "900,901"))
         (self.folder / "poses.txt").write_text("1 2 3\n")
         self.assertIn("poses.txt:1: 3 numbers; valid", refused("--poses", self.folder / "poses.txt"))
+        (self.folder / "two.txt").write_text("0 0 0 10 0 0 0 1\n1 0 0 10 0 0 0 1\n")
+        self.assertIn("--images 7: " + str(self.folder / "two.txt") + " has 2 poses; valid: up to 6 images in 3 worlds",
+                      refused("--poses", self.folder / "two.txt", "--images", 7, "--seeds", "1:3"))
+        missing = dataset(self.folder / "none", "--poses", self.folder / "nosuch.csv")
+        self.assertEqual(missing.returncode, 2, missing.stderr)
+        self.assertIn("nosuch.csv: No such file", missing.stderr)
+        self.assertFalse((self.folder / "none").exists())
 
 
 if __name__ == "__main__":

@@ -88,6 +88,8 @@ TEST(PoseFile, EveryFormatGivesTheMotionOfTheBody) {
   expect_motion(parse_poses(euroc, "euroc", reading));
   expect_motion(parse_poses(tum, "tum", reading));
   expect_motion(parse_poses(table, "table", reading));
+  expect_motion(parse_poses("\xef\xbb\xbf" + table, "table of Excel", reading));
+  expect_motion(parse_poses("\xef\xbb\xbf" + euroc, "euroc of PowerShell", reading));
 }
 
 TEST(PoseFile, CameraPosesKeepTheCamerasAxes) {
@@ -117,6 +119,26 @@ TEST(PoseFile, KittiIsRelativeToTheFirstPose) {
 TEST(PoseFile, TimesOfOwnDataSetsAreThoseOfTheFlight) {
   EXPECT_NEAR(parse_poses("1600000002.040000000 0 0 0 0 0 0 1\n", "tum", {})[0].t_s, 2.04, 1e-9);
   EXPECT_EQ(parse_poses("1600000003500000000,0,0,0,1,0,0,0\n", "euroc", {})[0].t_s, 3.5);
+}
+
+TEST(PoseFile, WholeTimesOfATableFrom1e12AreInNanoseconds) {
+  const std::string head = "timestamp,x,y,z,qx,qy,qz,qw\n", pose = ",0,0,10,0,0,0,1\n";
+  const auto poses = parse_poses(head + "1403636579763555584" + pose + "1403636579813555585" + pose, "table", {});
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].t_s, 0.0);
+  EXPECT_NEAR(poses[1].t_s, 0.050000001, 1e-12);
+}
+
+TEST(PoseFile, RefusesTimesBeyond64BitsOfNanoseconds) {
+  const std::string own = "t_s,north_m,east_m,down_m,roll_rad,pitch_rad,yaw_rad\n",
+                    table = "t,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n";
+  for (const auto& [text, place] : {std::pair{own + "1e300,0,0,0,0,0,0\n", "poses:2: the time 1e300"},
+                                    {table + "99999999999,0,0,0,0,0,0,1\n", "poses:3: the time 99999999999"},
+                                    {std::string("-99999999999.5 0 0 0 0 0 0 1\n"), "poses:1: the time -99999999999.5"},
+                                    {std::string("9223372036854775807,0,0,0,1,0,0,0\n"), "poses:1: the time 92"}}) {
+    EXPECT_THAT(faults_of([&] { parse_poses(text, "poses", {}); }),
+                ElementsAre(testing::AllOf(HasSubstr(place), HasSubstr("is beyond 4e+09 s; state the time in s"))));
+  }
 }
 
 TEST(PoseFile, RefusesOtherContentWithItsLine) {

@@ -13,6 +13,7 @@ import unittest
 
 import cv2
 import numpy as np
+import yaml
 
 from euroc import START_NS, Euroc, pose
 from flown import flown_pose, rotation
@@ -65,6 +66,15 @@ class ReadBack(unittest.TestCase):
         tum = f"{{role: left, rate: 10, channel: grey, calibration: {self.run_folder}/tum/calibration.yaml}}"
         rig = f"rig={{cameras: [{{role: down, width: 160, height: 160, fov: 90, rate: 50, channel: grey}}, {tum}]}}"
         self.assertEqual(kalibr("--camera", "left", "--set", rig), kalibr("--camera", "left"))
+
+    def test_all_numbers_of_the_sensors_are_numbers_for_other_readers(self):
+        small = ["--set", "avionics.imu.gyro_noise=2.0e-5", "--set", "avionics.imu.gyro_bias_walk=1.0e-7", "--set", "duration=0.2"]
+        flown = hedgehop("run", SCENARIO, "--out", self.folder / "small", "--no-video", "--no-report", *small)
+        self.assertIn(flown.returncode, (0, 1), flown.stderr)
+        done = hedgehop("export", self.folder / "small", "--format", "euroc")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        sensor = yaml.safe_load((self.folder / "small/euroc/mav0/imu0/sensor.yaml").read_text())
+        self.assertEqual((sensor["gyroscope_noise_density"], sensor["gyroscope_random_walk"]), (2.0e-5, 1.0e-7))
 
     def test_poses_are_those_of_the_run(self):
         compared = 0

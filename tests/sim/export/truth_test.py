@@ -126,6 +126,33 @@ class Truth(unittest.TestCase):
         self.assertLess(np.median(off), 0.02)  # half a unit of flow is 0.008 px
         self.assertLess(np.quantile(off, 0.99), 0.05)
 
+    def test_flow_of_kitti_leads_to_the_next_image_over_omitted_instants(self):
+        changes = ("duration=1.5", "scene.texture_size=64", "rig.stereo.0.imperfections.drop=0.3")
+        flown = hedgehop("run", SCENARIO, *[word for change in changes for word in ("--set", change)], "--out",
+                         self.folder / "lossy", "--no-video", "--no-report")
+        self.assertIn(flown.returncode, (0, 1), flown.stderr)
+        done = hedgehop("export", self.folder / "lossy", "--format", "kitti", "--truth", "--camera", "left", "--camera", "right")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        root = self.folder / "lossy/kitti"
+        times = np.loadtxt(root / "sequences/00/times.txt")
+        self.assertGreater(np.diff(times).max(), 0.15)  # the period is 0.1 s
+        P = [np.array(line.split()[1:], float).reshape(3, 4) for line in (root / "sequences/00/calib.txt").read_text().splitlines()[:2]]
+        poses = [np.vstack([row.reshape(3, 4), [0, 0, 0, 1]]) for row in np.loadtxt(root / "poses/00.txt")]
+        for camera, right in ((0, 0.0), (1, 0.4)):
+            X_C0C = np.eye(4)
+            X_C0C[0, 3] = right
+            np.testing.assert_allclose(P[camera], P[0] @ np.linalg.inv(X_C0C), atol=1e-6)
+            for number, (now, then) in enumerate(zip(poses, poses[1:])):
+                z, flow = (cv2.imread(str(root / f"truth/cam{camera}/{what}/{number:06}.png"), cv2.IMREAD_UNCHANGED)
+                           for what in ("depth", "flow"))
+                rows, cols = np.nonzero((flow[:, :, 0] == 1) & (z > 0))  # OpenCV's order is blue, green, red
+                points = np.linalg.inv(P[0][:, :3]) @ np.array([cols, rows, np.ones_like(rows)]) * (z[rows, cols] / 1000.0)
+                X = np.linalg.inv(then @ X_C0C) @ now @ X_C0C
+                u, v, w = P[0] @ X @ np.vstack([points, np.ones(len(rows))])
+                measured = (flow[rows, cols, :0:-1].T.astype(float) - 32768) / 64
+                off = np.abs(np.array([u / w - cols, v / w - rows]) - measured).max(axis=0)
+                self.assertLess(np.median(off), 0.02, (camera, number, times))
+
     def test_options_without_effect_on_a_log_print_a_line(self):
         cases = (("ulog", ["--truth"], ["--truth"]), ("ulog", ["--truth", "--float-depth"], ["--truth", "--float-depth"]),
                  ("mcap", ["--truth", "--float-depth"], ["--float-depth"]), ("mcap", ["--truth"], []))

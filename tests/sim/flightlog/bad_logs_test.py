@@ -40,6 +40,13 @@ class BadInput(Logs):
         self.assertIn("would be written as .svg", plot)
         heli = SOURCE / "configs/vehicles/xcell_60.yaml"
         self.assertIn("collective_rad, lateral_rad", self.refused("compare-log", heli, log))
+        commands = self.log([{"t_s": t, "cmd_v_north_mps": 1.0, "cmd_v_east_mps": 0.0, "cmd_altitude_m": 0.0,
+                              "cmd_heading_rad": 0.0} for t in self.times(4.0)], "commands.csv")
+        self.assertIn("log has 4 columns of motor_speeds, commands has 4 of setpoints; logs of one call need the same inputs",
+                      self.refused("compare-log", quadrotor, log, commands))
+        slow = self.log([{"t_s": 2.0 * t} for t in self.times(4.0)], "slow.csv")
+        self.assertIn("log has a sample every 0.01 s, slow every 0.02 s; logs of one call need the same rate",
+                      self.refused("compare-log", quadrotor, log, slow))
         fit = ("identify", quadrotor, "--log", log)
         self.assertIn("--fit is missing", self.refused(*fit))
         self.assertIn("did you mean 'rotor.drag'", self.refused(*fit, "--fit", "rotor.drg=0:1"))

@@ -18,7 +18,6 @@ RATE_HZ = 100
 STATES = ["north_m", "east_m", "down_m", "roll_rad", "pitch_rad", "yaw_rad", "v_north_mps", "v_east_mps", "v_down_mps",
           "p_radps", "q_radps", "r_radps"]
 MOTORS = [f"motor_{i}_radps" for i in range(4)]
-
 QUADROTOR = """use: {source}/configs/vehicles/hummingbird.yaml
 mass: {{mass: {mass}, inertia: [0.007, 0.007, 0.012]}}
 body_drag: [0.0, 0.0, {drag}]
@@ -144,6 +143,18 @@ class CompareLog(Logs):
         map_file.write_text("axes: flu\n")
         flu = self.compare(self.quadrotor(), self.log(flipped, "flu.csv"), "--columns", map_file)
         self.assertEqual(frd, flu)
+
+    def test_inputs_with_z_up_are_the_same_flight(self):
+        commands = {"cmd_v_north_mps": 1.0, "cmd_v_east_mps": 3.0, "cmd_altitude_m": 20.0, "cmd_heading_rad": 0.7}
+        torques = {"thrust_n": 7.0, "roll_torque_nm": 0.001, "pitch_torque_nm": 0.002, "yaw_torque_nm": 0.003}
+        reversed_keys = ("down_m", "cmd_v_east_mps", "cmd_heading_rad", "pitch_torque_nm", "yaw_torque_nm")
+        (map_file := self.folder / "map.yaml").write_text("axes: flu\n")
+        for inputs in (commands, torques):
+            rows = [{"t_s": t, "down_m": -20.0, **inputs} for t in self.times(3.0)]
+            flipped = [{key: -value if key in reversed_keys else value for key, value in row.items()} for row in rows]
+            frd = self.compare(self.quadrotor(), self.log(rows))
+            self.assertEqual(frd, self.compare(self.quadrotor(), self.log(flipped, "flu.csv"), "--columns", map_file))
+            self.assertGreater(frd[1.0]["psi"]["model"], 0.1)
 
     def test_duty_cycles_lift_like_the_speeds_that_they_command(self):
         """At the duty cycle of the hover, voltage included, the vehicle keeps its place."""

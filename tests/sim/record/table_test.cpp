@@ -74,11 +74,12 @@ TEST(Table, CountsTheLinesInsideQuotes) {
   EXPECT_THAT(error_of([&] { table.numbers("a_m"); }), HasSubstr("t.csv:4:"));
 }
 
-TEST(Table, ReadsWindowsLineEndsAndAMissingLastOne) {
+TEST(Table, ReadsTheByteOrderMarkWindowsLineEndsAndAMissingLastOne) {
   const TemporaryFolder folder;
-  write_file_whole(folder.path() / "t.csv", "t_s,a_m\r\n0,\r\n1,2.5");
+  write_file_whole(folder.path() / "t.csv", "\xef\xbb\xbft_s,a_m\r\n0,\r\n1,2.5");
   const Table table(folder.path() / "t.csv");
   ASSERT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.numbers("t_s")[1], 1.0);
   EXPECT_TRUE(std::isnan(table.numbers("a_m")[0]));
   EXPECT_EQ(table.numbers("a_m")[1], 2.5);
 }

@@ -171,6 +171,46 @@ TEST(CalibratedRig, AFileWithoutImageSizeNeedsOneFromTheCamera) {
   EXPECT_THAT(faults(203, 196, ", width: 400, height: 400"), ElementsAre());
 }
 
+/// Looks to the left, 1.5 m left of and 0.2 m above the body's origin.
+constexpr const char* kToTheLeft = "body_from_camera: [1, 0, 0, 0.3, 0, 0, -1, -1.5, 0, 1, 0, -0.2, 0, 0, 0, 1]";
+
+TEST(CalibratedRig, TheMatrixOfAPairIsThePoseOfItsMiddle) {
+  Folder folder;
+  Folder::write("chain.yaml", kFront);
+  const std::string lens = "fov: 60", calibration = "calibration: chain.yaml";
+  for (const std::string& given : {lens, calibration}) {
+    const RigConfig rig = flown("{stereo: [{baseline: 0.4, " + given + ", " + kToTheLeft + "}]}").rig;
+    for (const double side : {-1.0, 1.0}) {
+      const Eigen::Isometry3d X_BC = rig.find(side < 0.0 ? "left" : "right")->X_BC();
+      EXPECT_NEAR((X_BC.translation() - Eigen::Vector3d(0.3 + 0.2 * side, -1.5, -0.2)).norm(), 0.0, 1e-15);
+      EXPECT_EQ(Eigen::Vector3d(X_BC.linear().col(2)), Eigen::Vector3d(0.0, -1.0, 0.0));
+    }
+  }
+  // Without a matrix of its own, a pair keeps its mounting.
+  const RigConfig rig = flown("{stereo: [{baseline: 0.4, calibration: chain.yaml}]}").rig;
+  EXPECT_EQ(Eigen::Vector3d(rig.find("right")->X_BC().translation()), Eigen::Vector3d(0.0, 0.2, 0.0));
+}
+
+TEST(CalibratedRig, APoseStatedTwiceIsRefused) {
+  Folder folder;
+  const auto faults = [](const std::string& list, const std::string& keys) {
+    return faults_of([&] { flown("{" + list + ": [{" + keys + "}]}"); });
+  };
+  const auto twice = [](const std::string& key, const std::string& first) {
+    return ElementsAre(HasSubstr("." + key + "': '" + first + "' states the pose already; valid: one matrix, or"));
+  };
+  const std::string matrix = kToTheLeft, quaternion = "quaternion: [1, 0, 0, 0]", camera = "role: a, ";
+  EXPECT_THAT(faults("cameras", camera + matrix + ", pitch: 3"), twice("pitch", "body_from_camera"));
+  EXPECT_THAT(faults("cameras", camera + matrix + ", " + quaternion), twice("quaternion", "body_from_camera"));
+  EXPECT_THAT(faults("cameras", camera + matrix + ", down: 1"), twice("down", "body_from_camera"));
+  EXPECT_THAT(
+      faults("cameras", camera + matrix + ", imu_from_camera: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]"),
+      twice("imu_from_camera", "body_from_camera"));
+  EXPECT_THAT(faults("cameras", camera + quaternion + ", roll: 3"), twice("roll", "quaternion"));
+  EXPECT_THAT(faults("cameras", camera + quaternion + ", down: 1"), ElementsAre());
+  EXPECT_THAT(faults("stereo", matrix + ", forward: 1"), twice("forward", "body_from_camera"));
+}
+
 TEST(CalibratedRig, KeysThatContradictItAreRefused) {
   Folder folder;
   Folder::write("chain.yaml", kFront);

@@ -93,6 +93,20 @@ TEST(CalibrationFile, SensorOfEuroc) {
   expect_intrinsics(camera.config, 458.5, 457.25, 367.125, 248.5);
 }
 
+TEST(CalibrationFile, ChainOfOpenVinsStatesTheInversePose) {
+  std::string chain = kalibr("pinhole", "460, 461, 320, 240", "radtan", "0, 0, 0, 0");
+  chain.replace(chain.find("T_cam_imu"), 9, "T_imu_cam");
+  const CameraConfig camera = only(chain).config;
+  EXPECT_TRUE(camera.camera_from_imu.empty());
+  EXPECT_THAT(camera.imu_from_camera, ElementsAre(0, -1, 0, 0.5, 0, 0, -1, 0.25, 1, 0, 0, -0.125, 0, 0, 0, 1));
+}
+
+TEST(CalibrationFile, TheEndOfADocumentMayFollow) {
+  for (const char* end : {"---\n", "---", "...\n\n"})
+    EXPECT_EQ(only(opencv("0, 0, 0, 0, 0") + end).config.focal_x_px, 458.5) << end;
+  EXPECT_THAT(fault_of_calibration(opencv("0, 0, 0, 0, 0") + "---\nimage_width: 3\n"), HasSubstr("second document"));
+}
+
 TEST(CalibrationFile, CameraInfoOfRos) {
   const auto info = [](const std::string& model, const std::string& k) {
     return fmt::format(
@@ -141,6 +155,12 @@ TEST(CalibrationFile, RefusesModelsThatAreNotImplementedByTheirNames) {
               HasSubstr("extended unified"));
   EXPECT_THAT(fault_of_calibration(kalibr("pinhole", "460, 461, 320, 240", "fov", "0.9")),
               HasSubstr("'fov' is not implemented"));
+}
+
+TEST(CalibrationFile, RefusesAnUnknownModelNextToACameraMatrix) {
+  EXPECT_THAT(fault_of_calibration(opencv("0.01, 0, 0, 0", "camera_model: kannala_brandt_8\n")),
+              HasSubstr("calibration:5:15: unknown camera model 'kannala_brandt_8'; valid: pinhole, fisheye, omnidir"));
+  EXPECT_EQ(only(opencv("0.01, 0, 0, 0", "camera_model: pinhole\n")).config.model_kind, Model::pinhole);
 }
 
 TEST(CalibrationFile, RefusesOtherFilesWithLineAndValidValues) {

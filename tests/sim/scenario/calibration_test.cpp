@@ -119,6 +119,17 @@ TEST(Calibration, KalibrsChainHoldsLensesAndPoses) {
   }
 }
 
+TEST(Calibration, AnyRoleReadsBackFromKalibrsChain) {
+  RigConfig rig = three_cameras(false);
+  rig.cameras[0].role = "a: b #1";
+  rig.cameras[1].role = "\"quoted\"";
+  const std::string text = kalibr_calibration(rig.cameras, imu_of_test());
+  const YAML::Node chain = YAML::Load(text);
+  EXPECT_EQ(chain["cam0"]["rostopic"].as<std::string>(), "/a: b #1/image_raw");
+  EXPECT_EQ(chain["cam1"]["rostopic"].as<std::string>(), "/\"quoted\"/image_raw");
+  EXPECT_THAT(text, HasSubstr("rostopic: /down/image_raw\n"));
+}
+
 TEST(Calibration, OpenCvReadsKalibrsChainWithItsHeader) {
   const RigConfig rig = three_cameras(false);
   const std::string chain = kalibr_calibration(rig.cameras, imu_of_test());

@@ -44,6 +44,9 @@ TEST(Formula, FaultsNameTheColumnAndTheNearestSignal) {
   EXPECT_THAT(fault("speed < 1e999"), HasSubstr("expected a finite number"));
   EXPECT_THAT(fault("speed < 2 speed"), HasSubstr("column 11: expected the formula's end, got 'speed'"));
   EXPECT_THAT(fault("status > 2"), HasSubstr("'status' takes == or !="));
+  EXPECT_EQ(fault("always (speed >= status)"),
+            "column 18: 'status' is no number; valid: status == WORD, status != WORD");
+  EXPECT_THAT(fault("max(status, 1) > -status"), HasSubstr("column 5: 'status' is no number"));
   EXPECT_THAT(fault(""), HasSubstr("column 1: expected a number or a signal"));
   EXPECT_THAT(fault(std::string(10'000, '(')), HasSubstr("nested too deep"));
   EXPECT_THAT(fault(std::string(10'000, '-')), HasSubstr("nested too deep"));
@@ -55,6 +58,13 @@ TEST(Formula, FaultsNameTheColumnAndTheNearestSignal) {
   std::string sum = "speed";
   for (int i = 0; i < 30'000; ++i) sum += " + speed";
   EXPECT_THAT(fault(sum + " < 1"), HasSubstr("more than 1000 operators; write several checks"));
+}
+
+TEST(Formula, UsesTheSignalsThatItNames) {
+  const Formula f = parse_formula("always (speed < 1 -> abs(north - goal_distance) > 2 or status == stop)");
+  EXPECT_TRUE(uses_signal(f, "goal_distance"));
+  EXPECT_TRUE(uses_signal(f, "speed"));
+  EXPECT_FALSE(uses_signal(f, "east"));
 }
 
 TEST(Formula, HorizonSumsAlongNestedIntervals) {

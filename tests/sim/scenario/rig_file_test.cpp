@@ -117,6 +117,20 @@ TEST(RigFile, AScenarioNamesThePlaceOfAFaultyLens) {
   EXPECT_THAT(faults, testing::Contains(HasSubstr("needs camera 'front' to be an undistorted pinhole")));
 }
 
+TEST(RigFile, ARoleIsAName) {
+  const auto faults = [](const std::string& list, const std::string& role) {
+    return faults_of([&] {
+      load_scenario(kConfigs / "garratt2009_city_0.yaml",
+                    std::vector<std::string>{"rig." + list + "=[{role: \"" + role + "\"}]", "velocimeter.enabled=false",
+                                             "avoidance={module: go_to_goal}"});
+    });
+  };
+  EXPECT_THAT(faults("cameras", "../a: b"), ElementsAre(HasSubstr("role': must not contain '/'")));
+  EXPECT_THAT(faults("stereo", "a/b"), testing::Contains(HasSubstr("role': must not contain '/'")));
+  EXPECT_THAT(faults("cameras", ""), ElementsAre(HasSubstr("role': must not be empty")));
+  EXPECT_THAT(faults("cameras", "front: 1"), ElementsAre());
+}
+
 TEST(RigFile, AStereoPairIsTwoParallelCamerasABaselineApart) {
   Folder folder;
   Folder::write("rig.yaml",

@@ -41,6 +41,35 @@ TEST(Scenario, EqualInputGivesEqualText) {
   EXPECT_EQ(to_yaml(load_scenario(file)), to_yaml(load_scenario(file)));
 }
 
+TEST(Scenario, AReferenceIsRelativeToTheFileThatNamesIt) {
+  const Folder folder;
+  const std::string path = "t_s,north_m,east_m,altitude_m\n0,0,0,1\n";
+  const std::string check = "checks: [{check: path_tolerance, reference: ref.csv, at_most: 1}]";
+  Folder::write("sub/ref.csv", path);
+  Folder::write("sub/base.yaml", "use: " + (kConfigs / "garratt2009_city_0.yaml").string() + "\n" + check + "\n");
+  Folder::write("outer.yaml", "use: sub/base.yaml\n");
+  const auto reference = [](const std::vector<std::string>& overrides) {
+    return std::filesystem::relative(
+               std::get<PathToleranceCheck>(load_scenario("outer.yaml", overrides).checks.at(0)).reference)
+        .string();
+  };
+  EXPECT_EQ(reference({}), "sub/ref.csv");
+  Folder::write("ref.csv", path);
+  EXPECT_EQ(reference({}), "sub/ref.csv");
+  EXPECT_EQ(reference({"checks=" + check.substr(8)}), "ref.csv");  // relative to the scenario's folder
+}
+
+TEST(Scenario, AFormulaOfTheGoalDistanceNeedsAGoal) {
+  const std::string check = "checks=[{check: formula, name: f, formula: 'eventually (goal_distance < 0.5)'}]";
+  EXPECT_NO_THROW(load_scenario(kConfigs / "garratt2009_city_0.yaml", std::vector<std::string>{check}));
+  try {
+    load_scenario(kConfigs / "garratt2009_room_0.yaml", std::vector<std::string>{check});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("uses 'goal_distance', but the scenario has no goal"));
+  }
+}
+
 TEST(Renamed, KeysOfAnEarlierVersionAreRefusedWithTheirNewName) {
   struct Row {
     std::string scenario, override, now;
