@@ -13,6 +13,7 @@
 #include "sim/batch/group_verdict.h"
 #include "sim/batch/statistics.h"
 #include "sim/config/config_outline.h"
+#include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
@@ -79,9 +80,12 @@ std::string unit_of(const std::string& name, const std::vector<FlightNotes>& not
   return name.ends_with("_s") ? "s" : unit_of_parameter(name);
 }
 
+Interval success_interval(const Count& success, bool anytime) {
+  return anytime ? anytime_interval(success, kTableConfidence) : wilson_interval(success, kTableConfidence);
+}
+
 Json group_row(const GroupSummary& group, bool anytime) {
-  const Interval interval =
-      anytime ? anytime_interval(group.success, kTableConfidence) : wilson_interval(group.success, kTableConfidence);
+  const Interval interval = success_interval(group.success, anytime);
   return {{"group", group.group},
           {"flights", group.flights},
           {"passed", group.success.successes},
@@ -153,14 +157,18 @@ std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now
   return found;
 }
 
-Json rate(const Count& count) {
-  const Interval interval = wilson_interval(count, kTableConfidence);
+Json rate(const Count& count, bool anytime) {
+  const Interval interval = success_interval(count, anytime);
   return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
 }
 
-Json change_row(const GroupSummary& now, const GroupSummary& before) {
-  Json row{{"group", now.group}, {"now", rate(now.success)}, {"before", rate(before.success)}, {"change", nullptr}};
-  if (now.success.trials > 0 && before.success.trials > 0) {
+Json change_row(const GroupSummary& now, const GroupSummary& before, StoppedByRule stopped) {
+  Json row{{"group", now.group},
+           {"now", rate(now.success, stopped.now)},
+           {"before", rate(before.success, stopped.before)},
+           {"change", nullptr}};
+  // The interval of a change requires numbers of flights that do not depend on the results.
+  if (!stopped.now && !stopped.before && now.success.trials > 0 && before.success.trials > 0) {
     const Interval change = newcombe_difference(now.success, before.success, kTableConfidence);
     row["change"] = {now.success.rate() - before.success.rate(), change.low, change.high};
   }
@@ -201,12 +209,14 @@ std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const s
 
 Json columns_data(const Table& table, const std::vector<FlightNotes>& notes) {
   Json columns = Json::array();
+  const auto is_seed = [](const std::string& word) { return word.empty() || parse_unsigned(word); };
   for (const std::string& name : table.names()) {
     const std::vector<std::string> words = table.words(name);
     if (std::ranges::all_of(words, &std::string::empty)) continue;
     const auto numbers = kWordColumns.contains(name) ? std::nullopt : all_numbers(words);
-    Json column{{"name", name}, {"unit", unit_of(name, notes)}, {"is_text", !numbers}, {"values", words}};
-    if (numbers) {
+    const bool is_seeds = name == "seed" && std::ranges::all_of(words, is_seed);
+    Json column{{"name", name}, {"unit", unit_of(name, notes)}, {"is_text", !numbers && !is_seeds}, {"values", words}};
+    if (numbers && !is_seeds) {
       column["values"] = Json::array();
       for (const double value : *numbers) column["values"].push_back(six(value));
     }
@@ -216,17 +226,18 @@ Json columns_data(const Table& table, const std::vector<FlightNotes>& notes) {
 }
 
 Json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
-  Json strips = Json::array();
-  size_t bytes = 0;
+  Json images = Json::array();
+  size_t bytes = 0, omitted = 0;
   for (size_t row = 0; row < records.size(); ++row) {
     const std::filesystem::path file = folder / records[row].order.id / "strip.jpg";
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
+    if (!error && bytes + size > kMaxStripBytes) ++omitted;
     if (error || bytes + size > kMaxStripBytes) continue;
     bytes += size;
-    strips.push_back({row, base64(read_file_whole(file))});
+    images.push_back({row, base64(read_file_whole(file))});
   }
-  return strips;
+  return {{"images", images}, {"omitted", omitted}};
 }
 
 std::vector<std::string> swept_columns(const FlightList& flights) {
@@ -245,18 +256,28 @@ Json groups_data(const std::vector<FlightRecord>& records, bool anytime, const s
   return rows;
 }
 
-Json against_data(const FlightList& now, const FlightList& before) {
+Json against_data(const FlightList& now, const FlightList& before, StoppedByRule stopped) {
   const auto pairs = partners(now.records, before.records);
   const std::vector<std::string> commands = before.table.words("command");
-  Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}};
+  std::vector<double> goal_distances_m(before.records.size(), NAN);
+  if (before.table.has("goal_distance_m")) goal_distances_m = before.table.numbers("goal_distance_m");
+  Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}, {"no_change", nullptr}};
+  if (stopped.now || stopped.before) {
+    json["no_change"] =
+        "The change has no interval, because flights were stopped depending on their results (--until). Each rate has "
+        "its own 95 % interval.";
+  }
   for (const std::optional<size_t>& pair : pairs) {
     if (!pair) {
       json["flights"].push_back(nullptr);
       continue;
     }
     const FlightRecord& old = before.records[*pair];
-    Json row{
-        {"outcome", outcome_words(old)}, {"passed", verdict_of(old) == Verdict::passed}, {"command", commands[*pair]}};
+    // As in web/src/filter.js: a timeout without a goal is the normal end of a flight.
+    const bool completed = outcome_words(old) == to_string(Outcome::timeout) && std::isnan(goal_distances_m[*pair]);
+    Json row{{"outcome", completed ? "completed" : outcome_words(old)},
+             {"passed", verdict_of(old) == Verdict::passed},
+             {"command", commands[*pair]}};
     row["clearance_m"] = old.result ? json_number(old.result->flight.closest_obstacle.distance_m) : Json(nullptr);
     row["time_s"] = old.result ? json_number(old.result->flight.flight_time_s) : Json(nullptr);
     json["flights"].push_back(std::move(row));
@@ -265,11 +286,11 @@ Json against_data(const FlightList& now, const FlightList& before) {
     if (std::ranges::find(pairs, std::optional(i)) == pairs.end()) json["gone"].push_back(before.records[i].order.id);
   }
 
-  json["groups"].push_back(change_row(all_of(now.records), all_of(before.records)));
+  json["groups"].push_back(change_row(all_of(now.records), all_of(before.records), stopped));
   const std::vector<GroupSummary> earlier = summarize(before.records), groups = summarize(now.records);
   for (const GroupSummary& group : groups) {
     const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);
-    if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same));
+    if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same, stopped));
   }
   return json;
 }

@@ -21,10 +21,12 @@ struct FlightNotes {
 std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
 
 /// Returns the table for the page, column by column: `columns` of {name, unit, is_text, values}. Numbers have six
-/// significant figures; empty fields and values that are not finite are null. Empty columns are omitted.
+/// significant figures; empty fields and values that are not finite are null. Seeds are texts, because a number of a
+/// page is exact up to 2^53 only. Empty columns are omitted.
 nlohmann::ordered_json columns_data(const Table& table, const std::vector<FlightNotes>& notes);
 
-/// Returns the film strips of the flights as [row, JPEG in base64], in the order of the rows, up to 2.5 MB in total.
+/// Returns the film strips of the flights: `images` of [row, JPEG in base64], in the order of the rows, up to 2.5 MB in
+/// total, and `omitted`, the number of strips beyond that.
 /// @param folder  of the campaign.
 nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
 
@@ -38,9 +40,16 @@ std::vector<std::string> swept_columns(const FlightList& flights);
 nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime,
                                    const std::set<std::string>& controls = {});
 
+/// Which of two campaigns was stopped depending on its results.
+struct StoppedByRule {
+  bool now = false, before = false;
+};
+
 /// Returns the comparison with an earlier campaign: `flights` (one per row of `now`; null if the earlier campaign lacks
 /// the flight), `groups` of equal name with both rates and the 95 % interval of the change, and the ids of removed
 /// flights. Flights are matched by id, else by scenario and seed if these are unique, so that settings can be compared.
-nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before);
+/// With a stopping rule, that campaign's rates have intervals that are valid at any time, and there is no change:
+/// `no_change` has the reason.
+nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before, StoppedByRule stopped = {});
 
 }  // namespace hedgehop::sim

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/batch/campaign_file.h"
 #include "sim/batch/group_verdict.h"
 #include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
@@ -68,10 +69,14 @@ std::set<std::string> control_groups(const Json& board) {
   return groups;
 }
 
+/// Whether a stopping rule decided on the number of flights.
+bool has_stopping_rule(const Json& conduct) { return !conduct.is_null() && !conduct.at("sequential").empty(); }
+
 /// Returns the result of a search for failures with the paths of the stored failures; null for any other campaign.
 Json search_data(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
   Json search = Json::parse(read_file_whole(folder / "falsify.json"));
+  if (search.contains("seed")) search["seed"] = search["seed"].dump();  // a text is exact
   std::vector<std::optional<FlownPath>> paths;
   for (const Json& one : search.at("counterexamples")) {
     paths.push_back(
@@ -87,7 +92,7 @@ Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRe
                  const std::set<std::string>& controls) {
   const GroupSummary all = total(records, controls);
   const Json conduct = conduct_data(folder);
-  const bool sequential = !conduct.is_null() && !conduct.at("sequential").empty();
+  const bool sequential = has_stopping_rule(conduct);
   const auto interval = [&](Count count) -> Json {
     const Interval i =
         sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
@@ -95,6 +100,8 @@ Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRe
   };
   const int64_t of_controls = static_cast<int64_t>(records.size()) - all.flights;
   const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>() - of_controls;
+  const int64_t refused = std::ranges::count_if(records, [](const FlightRecord& r) { return is_refused(r.order); });
+  const int64_t discarded = conduct.is_null() ? 0 : planned - (all.flights - refused);
   const int64_t broken = all.fault + all.failed;
   Json data{{"counts",
              {{"planned", planned},
@@ -103,7 +110,7 @@ Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRe
               {"failed_a_check", all.success.trials - all.success.successes - broken},
               {"broken", broken},
               {"missing", all.missing},
-              {"discarded", planned - all.flights},
+              {"discarded", discarded},
               {"no_checks", all.unchecked}}},
             {"method", sequential ? "anytime" : "wilson"},
             {"interval", interval(all.success)},
@@ -155,7 +162,9 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   data["against"] = nullptr;
   if (against) {
     const FlightList earlier = read_flights(*against);
-    data["against"] = against_data(flights, earlier);
+    data["against"] = against_data(
+        flights, earlier,
+        {.now = has_stopping_rule(data["claims"]["conduct"]), .before = has_stopping_rule(conduct_data(*against))});
     data["against"]["name"] = against->string();
     std::vector<FlightRecord> both = flights.records;
     both.insert(both.end(), earlier.records.begin(), earlier.records.end());

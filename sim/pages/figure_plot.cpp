@@ -15,16 +15,18 @@ constexpr double kTextSize = 7.0;
 constexpr std::array<std::array<double, 3>, 4> kRamp = {
     {{0xc8, 0x42, 0x0a}, {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x0a, 0x5f, 0xa0}}};
 
-/// Returns round numbers in a range, about five.
+/// Returns round numbers in a range, about five and at most six.
 std::vector<FigureAxis::Tick> round_ticks(double low, double high) {
-  const double rough = (high - low) / 5.0, power = std::pow(10.0, std::floor(std::log10(rough)));
+  constexpr double kMaxSteps = 5.0;
+  const double rough = (high - low) / kMaxSteps, power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * power;
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (factor * power >= rough) step = factor * power;
   }
   std::vector<FigureAxis::Tick> ticks;
-  for (double i = std::ceil(low / step); i * step <= high; ++i) {
-    const double value = i == 0.0 ? 0.0 : i * step;
+  const double first = std::ceil(low / step), last = std::min(std::floor(high / step + 1e-9) - first, kMaxSteps);
+  for (double k = 0.0; k <= last; ++k) {  // first + k may equal first: the count ends the loop
+    const double value = first + k == 0.0 ? 0.0 : (first + k) * step;
     ticks.push_back({value, fmt::format("{:.6g}", value)});
   }
   return ticks;
@@ -40,9 +42,30 @@ FigureAxis FigureAxis::of_numbers(const std::string& label, const std::vector<do
     high = std::max(high, value);
   }
   if (!(low <= high)) low = 0.0, high = 1.0;
-  if (low == high) low -= 0.5, high += 0.5;
+  // Ticks differ only if the range is wide enough.
+  const double middle = low / 2.0 + high / 2.0, least = 1e-9 * std::max(1.0, std::abs(middle));
+  if (high - low < least) {
+    const double half = low == high ? std::max(0.5, least) : least / 2.0;
+    low = middle - half, high = middle + half;
+  }
   const double pad = 0.05 * (high - low);
   return {.label = label, .low = low - pad, .high = high + pad, .ticks = round_ticks(low - pad, high + pad)};
+}
+
+FigureAxis FigureAxis::of_logarithms(const std::string& label, std::vector<double> values) {
+  constexpr size_t kMaxTicks = 8, kQuarters = 4;
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+  std::vector<double> logarithms(values.size());
+  std::ranges::transform(values, logarithms.begin(), [](double value) { return std::log10(value); });
+  FigureAxis axis = of_numbers(label, logarithms);
+  axis.ticks.clear();
+  const size_t parts = values.size() <= kMaxTicks ? values.size() - 1 : kQuarters;
+  for (size_t k = 0; k <= parts; ++k) {
+    const size_t i = parts == 0 ? 0 : (k * (values.size() - 1) + parts / 2) / parts;
+    axis.ticks.push_back({logarithms[i], fmt::format("{:.3g}", values[i])});
+  }
+  return axis;
 }
 
 FigureAxis FigureAxis::of_words(const std::string& label, const std::vector<std::string>& words) {

@@ -20,6 +20,8 @@ struct FigureAxis {
 
   /// Values that are not finite are ignored.
   static FigureAxis of_numbers(const std::string& label, const std::vector<double>& values);
+  /// The axis of log10 of values > 0, with the values as ticks: all if they are few, else five of them.
+  static FigureAxis of_logarithms(const std::string& label, std::vector<double> values);
   static FigureAxis of_words(const std::string& label, const std::vector<std::string>& words);
 };
 

@@ -52,11 +52,14 @@ Json figures(const FlightList& flights, const std::set<std::string>& groups) {
   if (group.unchecked > 0) data["no_checks"] = group.unchecked;
   if (group.success.trials == 0) return data;
   const Interval passed = wilson_interval(group.success, kTableConfidence);
-  const Interval collided = wilson_interval({group.collided, group.success.trials}, kTableConfidence);
+  // Flights without checks can collide, too. Whether a flight with a fault would have collided is unknown.
+  const int64_t flown = group.flights - group.missing - group.failed - group.fault;
+  const Interval collided = wilson_interval({group.collided, flown}, kTableConfidence);
   data["flights"] = group.success.trials;
   data["passed"] = group.success.successes;
   data["low"] = passed.low;
   data["high"] = passed.high;
+  data["flown"] = flown;
   data["collided"] = group.collided;
   data["collided_low"] = collided.low;
   data["collided_high"] = collided.high;
@@ -129,6 +132,12 @@ std::string name_cell(const Json& one, const char* key = "name") {
   return markdown_cell(one.at(key).get<std::string>());
 }
 
+/// Returns the number of collisions, with the number of flights that it refers to if that is not `flights`.
+std::string collided_text(const Json& cell) {
+  const auto collided = cell.at("collided").get<int64_t>(), flown = cell.at("flown").get<int64_t>();
+  return flown == cell.at("flights") ? std::to_string(collided) : fmt::format("{} of {}", collided, flown);
+}
+
 std::string matrix_text(const Json& data) {
   std::string text = "| world | difficulty |";
   for (const Json& module : data.at("modules")) text += fmt::format(" {} |", name_cell(module));
@@ -160,9 +169,8 @@ std::string totals_text(const Json& data) {
     if (!total.contains("passed")) continue;
     text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", name_cell(total, "module"),
                         total.at("worlds").get<int64_t>(), total.at("flights").get<int64_t>(),
-                        total.at("passed").get<int64_t>(), total.at("collided").get<int64_t>(),
-                        total.at("collided_low").get<double>(), total.at("collided_high").get<double>(),
-                        words(total.at("mean_speed_mps")));
+                        total.at("passed").get<int64_t>(), collided_text(total), total.at("collided_low").get<double>(),
+                        total.at("collided_high").get<double>(), words(total.at("mean_speed_mps")));
   }
   return text;
 }
@@ -177,14 +185,26 @@ std::string rows_text(const Json& data) {
       const Json& cell = cell_of(data, world, module);
       if (!cell.contains("passed")) continue;
       text += fmt::format("| {} | {} |", name_cell(world), name_cell(module));
-      for (const char* key : {"flights", "passed", "collided", "timeout", "broken"}) {
-        text += fmt::format(" {} |", cell.at(key).get<int64_t>());
-      }
+      text +=
+          fmt::format(" {} | {} | {} | {} | {} |", cell.at("flights").get<int64_t>(), cell.at("passed").get<int64_t>(),
+                      collided_text(cell), cell.at("timeout").get<int64_t>(), cell.at("broken").get<int64_t>());
       for (const char* key : {"min_clearance_m", "median_clearance_m", "path_excess", "mean_speed_mps"}) {
         text += " " + words(cell.at(key)) + " |";
       }
       text += " " + words(cell.at("decision_ms"), "{:.1f}") + " |\n";
     }
+  }
+  return text;
+}
+
+/// Returns one line for each module with flights that have no checks, a fault or no result.
+std::string collision_notes(const Json& data) {
+  std::string text;
+  for (const Json& total : data.at("totals")) {
+    if (!total.contains("passed") || (total.at("broken") == 0 && total.at("flown") == total.at("flights"))) continue;
+    text += fmt::format(
+        "Collisions of {}: among its {} flights without a fault, with or without checks; fault or no result: {}.\n",
+        total.at("module").get<std::string>(), total.at("flown").get<int64_t>(), total.at("broken").get<int64_t>());
   }
   return text;
 }
@@ -258,7 +278,7 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
 
 std::string leaderboard_text(const Json& data) {
   return data.at("origin").get<std::string>() + "\n" + matrix_text(data) + "\n" + totals_text(data) + "\n" +
-         rows_text(data) + "\n" + reasons_text(data);
+         rows_text(data) + "\n" + collision_notes(data) + reasons_text(data);
 }
 
 }  // namespace hedgehop::sim

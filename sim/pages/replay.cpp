@@ -41,27 +41,28 @@ std::string replay_json(const Json& data) { return json_text(data); }
 
 }  // namespace
 
-void write_replay(const std::filesystem::path& run_folder, const RunRecord& run) {
+std::string write_replay(const std::filesystem::path& run_folder, const RunRecord& run) {
   Json data = still_data(run.scenario, *run.scene, run.result.flight.flight_time_s);
   data["live"] = false;
-  data["result"] = to_json(run.result.info, run.result.flight);
+  data["result"] = page_result(run.result);
   data["has_report"] = std::filesystem::exists(run_folder / "report.html");
   data["has_film"] = std::filesystem::exists(run_folder / "video.webm");
   data["path"] = replay_path(run.trajectory);
   data["statuses"] = replay_statuses(run.decisions);
   data["panels"] = panels_data(run.result.flight, run.trajectory, run.decisions, kPanelPoints);
   data["map"] = run.map;
-  double rate_hz = 0.0;
-  data["film"] = base64(camera_film(run, rate_hz));
-  data["film_rate_hz"] = rate_hz;
+  const CameraFilm film = camera_film(run, run_folder);
+  data["film"] = base64(film.bytes);
+  data["film_rate_hz"] = film.rate_hz;
   write_file_whole(run_folder / "replay.html", replay_page(run.result.info.scenario, replay_json(data)));
+  return film.fault;
 }
 
 std::string live_page(const Scenario& scenario, const scenes::Scene& scene) {
   Json data = still_data(scenario, scene, std::min(scenario.duration_s, kLongestLiveS));
   data["live"] = true;
   data["result"] = {{"scenario", scenario.name},
-                    {"seed", scenario.seed},
+                    {"seed", std::to_string(scenario.seed)},
                     {"version", std::string(version())},
                     {"build", std::string(build_identity())},
                     {"outcome", "in flight"},

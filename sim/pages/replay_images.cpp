@@ -168,30 +168,30 @@ cv::Mat camera_sheet(Simulation& simulation, const ChosenPose* pose) {
   return sheet;
 }
 
-std::string camera_film(const RunRecord& run, double& rate_hz) {
-  if (run.trajectory.rows() == 0 || run.scenario.rig.cameras.empty()) return {};
-  const RecordedPoses poses(run.trajectory);
-  rate_hz = std::min(kRateHz, kMaxImages / std::max(1.0, poses.end_s()));
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / fmt::format("hedgehop-cameras-{}.webm", ::getpid());
-  std::string bytes;
+CameraFilm camera_film(const RunRecord& run, const std::filesystem::path& folder) {
+  CameraFilm made;
+  if (run.trajectory.rows() == 0 || run.scenario.rig.cameras.empty()) return made;
+  const std::filesystem::path file = folder / fmt::format("cameras-{}.webm", ::getpid());
   try {
+    const RecordedPoses poses(run.trajectory);
+    made.rate_hz = std::min(kRateHz, kMaxImages / std::max(1.0, poses.end_s()));
     Scenario scenario = run.scenario;
     scenario.seed = run.result.info.seed;
     scenario.link.reset();  // the poses are chosen
     Simulation simulation(std::move(scenario), hovering(run.scenario.rig, {}));
-    Film film(file, rate_hz, sheet_plan(run.scenario.rig).size);
-    for (int i = 0; i / rate_hz <= poses.end_s(); ++i) {
-      const ChosenPose pose = poses.at(i / rate_hz);
+    Film film(file, made.rate_hz, sheet_plan(run.scenario.rig).size);
+    for (int i = 0; i / made.rate_hz <= poses.end_s(); ++i) {
+      const ChosenPose pose = poses.at(i / made.rate_hz);
       film.add(camera_sheet(simulation, &pose));
     }
     film.close();
-    bytes = read_file_whole(file);
-  } catch (const std::exception&) {  // the replay is complete without the images
+    made.bytes = read_file_whole(file);
+  } catch (const std::exception& error) {
+    made.fault = error.what();
   }
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
-  return bytes;
+  return made;
 }
 
 }  // namespace hedgehop::sim

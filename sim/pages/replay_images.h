@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <opencv2/core.hpp>
 #include <span>
@@ -17,12 +18,18 @@ namespace hedgehop::sim {
 nlohmann::ordered_json replay_cameras(const RigConfig& rig);
 
 /// Returns one image with the images of all cameras in their channels, CV_8UC3, RGB; empty without a camera.
-/// @param X_WB  pose of the vehicle; null: the flight's own instant.
+/// @param pose  of the vehicle; null: the flight's own instant.
 cv::Mat camera_sheet(Simulation& simulation, const ChosenPose* pose);
 
+/// The images of all cameras along a recorded path.
+struct CameraFilm {
+  std::string bytes;     ///< of a WebM film; empty without cameras or path, and after a fault
+  double rate_hz = 0.0;  ///< images per second
+  std::string fault;     ///< reason why there is no film, such as an invalid scenario or a missing encoder; else empty
+};
+
 /// Renders the images of all cameras along the recorded path, at most 600 instants, with the imperfections of the
-/// sensor at rest. Returns the bytes of a WebM film; `rate_hz` is its rate. Empty without cameras, or if the scenario
-/// or the encoder prevents it.
-std::string camera_film(const RunRecord& run, double& rate_hz);
+/// sensor at rest. @param folder  of the run, for the film until it is read.
+CameraFilm camera_film(const RunRecord& run, const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

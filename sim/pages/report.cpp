@@ -91,9 +91,10 @@ Json path_json(const Table& trajectory, const Table& decisions, size_t max_point
   const Values t_s = trajectory.numbers("t_s"), north = trajectory.numbers("north_m");
   const Values east = trajectory.numbers("east_m"), clearance = trajectory.numbers("clearance_m");
   const Values v_north = trajectory.numbers("v_north_mps"), v_east = trajectory.numbers("v_east_mps");
+  const Values v_down = trajectory.numbers("v_down_mps"), ground_clearance = trajectory.numbers("ground_clearance_m");
   Values speed(t_s.size()), altitude = trajectory.numbers("down_m");
   for (size_t i = 0; i < t_s.size(); ++i) {
-    speed[i] = std::hypot(v_north[i], v_east[i]);
+    speed[i] = std::hypot(v_north[i], v_east[i], v_down[i]);
     altitude[i] = -altitude[i];
   }
   const std::vector<Values> kept = {north, east, clearance};
@@ -104,6 +105,7 @@ Json path_json(const Table& trajectory, const Table& decisions, size_t max_point
                {"altitude", picked(altitude, rows, milli)},
                {"yaw", picked(trajectory.numbers("yaw_rad"), rows, milli)},
                {"clearance", picked(clearance, rows, milli)},
+               {"ground_clearance", picked(ground_clearance, rows, milli)},
                {"speed", picked(speed, rows, milli)}};
   json["status"] = status_json(t_s, rows, decisions, json["statuses"]);
   return json;
@@ -203,20 +205,20 @@ PageFilm find_film(const std::filesystem::path& run_folder) {
 
 Json panels_data(const FlightResult& result, const Table& trajectory, const Table& decisions, size_t max_points) {
   Json json = Json::array();
-  std::vector<Panel> panels = trajectory_panels(trajectory, clearance_limits(result));
-  std::ranges::move(signal_panels(decisions), std::back_inserter(panels));
-  for (const std::string_view section : kSections) {
-    for (const Panel& panel : panels) {
-      if (panel.section == section) json.push_back(panel_json(panel, max_points));
-    }
-  }
+  for (const Panel& panel : all_panels(trajectory, decisions, result)) json.push_back(panel_json(panel, max_points));
+  return json;
+}
+
+Json page_result(const RunResult& result) {
+  Json json = to_json(result.info, result.flight);
+  json["seed"] = std::to_string(result.info.seed);
   return json;
 }
 
 Json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,
                  const Table& decisions, size_t max_points) {
   Json json;
-  json["result"] = to_json(result.info, result.flight);
+  json["result"] = page_result(result);
   json["description"] = scenario.description;
   json["module"] = scenario.module;
   json["scene"] = scenario.scene;

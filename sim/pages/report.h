@@ -27,6 +27,10 @@ struct ReportScenario {
   std::optional<PlanGoal> goal;
 };
 
+/// Returns the contents of result.json for a page, in which the seed is a text, because a number of a page is exact up
+/// to 2^53 only.
+nlohmann::ordered_json page_result(const RunResult& result);
+
 /// Returns the data of the report: the verdict as in result.json, the plan, the path and the time plots, each decimated
 /// to about `max_points`. Throws std::runtime_error if a table lacks a column.
 nlohmann::ordered_json report_data(const ReportScenario& scenario, const RunResult& result, const Table& trajectory,

@@ -156,7 +156,7 @@ Json paper_data(const PaperOutcome& outcome, const std::vector<RowOutcome>& rows
 
 std::string reproduction_page(const Json& papers, const PageFacts& facts) {
   const Json data{{"version", facts.version}, {"build", facts.build + of_commit(facts)},
-                  {"builds", facts.builds},   {"packages", facts.packages},
+                  {"builds", facts.builds},   {"packages", package_words(facts)},
                   {"quick", facts.quick},     {"papers", papers}};
   return reproduction_html("Papers reproduced", json_text(data));
 }

@@ -15,7 +15,9 @@
 #include "sim/config/outline_texts.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
+#include "sim/flight/words.h"
 #include "sim/pages/decimate.h"
+#include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
 
 namespace hedgehop::sim {
@@ -50,16 +52,12 @@ std::optional<Difference> first_difference(const Table& own, const Table& other)
   return first;
 }
 
-/// Returns both values; numbers with as many figures, at least four, as distinguish them.
+/// Returns both values; numbers with as many figures as distinguish them.
 std::pair<std::string, std::string> shown_pair(const std::string& own, const std::string& other) {
   char *own_end = nullptr, *other_end = nullptr;
   const double a = std::strtod(own.c_str(), &own_end), b = std::strtod(other.c_str(), &other_end);
   const bool numbers = !own.empty() && !other.empty() && *own_end == '\0' && *other_end == '\0';
-  constexpr int kMostFigures = 17;  // these distinguish all doubles
-  for (int figures = 4; numbers && figures <= kMostFigures; ++figures) {
-    const auto words = [figures](double value) { return fmt::format("{:.{}g}", value, figures); };
-    if (words(a) != words(b)) return {words(a), words(b)};
-  }
+  if (numbers && a != b) return {distinct_figures(a, b), distinct_figures(b, a)};
   const auto shown = [](const std::string& text) { return text.empty() ? "no value" : text; };
   return {shown(own), shown(other)};
 }
@@ -158,7 +156,7 @@ std::vector<Panel> overlaid_panels(const std::vector<Panel>& own, const std::vec
 Json run_against_data(const std::filesystem::path& folder, const RunRecord& run,
                       const std::filesystem::path& other_folder, const RunRecord& other) {
   Json data{{"name", other_folder.string()},
-            {"result", to_json(other.result.info, other.result.flight)},
+            {"result", page_result(other.result)},
             {"first", first_lines(run, other)},
             {"settings", settings(run, other)}};
   const std::vector<double> north = other.trajectory.numbers("north_m"), east = other.trajectory.numbers("east_m");

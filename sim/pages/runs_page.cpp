@@ -75,7 +75,7 @@ Json run_row(const fs::path& folder, const std::string& name) {
   const FlightResult& flight = result.flight;
   Json row{{"name", result.info.scenario}, {"folder", name}};
   add_scenario(folder, row);
-  row["seed"] = result.info.seed;
+  row["seed"] = std::to_string(result.info.seed);  // exact, unlike a number of a page
   row["build"] = result.info.build;
   row["date"] = date_of(folder / "result.json");
   const bool completed = flight.outcome == Outcome::timeout && !flight.goal_distance_m;  // its normal end
@@ -114,17 +114,19 @@ Json runs_data(const fs::path& folder) {
   }
   std::ranges::sort(folders);
   Json data{{"runs", Json::array()}, {"campaigns", Json::array()}, {"unread", Json::array()}};
-  std::string campaign;  // the last one on the way down
+  std::vector<std::string> campaigns;  // that contain the folder, the innermost last
   for (const fs::path& one : folders) {
     const std::string name = one == folder ? "." : one.lexically_relative(folder).string();
-    if (campaign != "." && !name.starts_with(campaign + "/")) campaign.clear();
+    while (!campaigns.empty() && campaigns.back() != "." && !name.starts_with(campaigns.back() + "/")) {
+      campaigns.pop_back();
+    }
     try {
       if (is_campaign(one)) {
         data["campaigns"].push_back(campaign_row(one, name));
-        campaign = name;
+        campaigns.push_back(name);
       } else if (fs::exists(one / "result.json")) {
         Json row = run_row(one, name);
-        row["campaign"] = campaign;
+        row["campaign"] = campaigns.empty() ? "" : campaigns.back();
         data["runs"].push_back(std::move(row));
       }
     } catch (const std::runtime_error& error) {

@@ -9,7 +9,6 @@
 
 #include "sim/batch/statistics.h"
 #include "sim/config/input_error.h"
-#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -21,15 +20,20 @@ bool has_column(const SweepTable& points, const std::string& name) {
 }
 
 /// As the page chooses it.
-std::string default_column(const std::filesystem::path& folder, const FlightList& flights, const SweepTable& points) {
-  if (const auto file = folder / "sweep.json"; std::filesystem::exists(file)) {
-    const auto design = nlohmann::ordered_json::parse(read_file_whole(file));
-    const std::string minimize = design.value("minimize", "");
-    if (has_column(points, minimize)) return minimize;
+std::string default_column(const nlohmann::ordered_json& design, const FlightList& flights, const SweepTable& points) {
+  if (const std::string minimize = design.value("minimize", ""); has_column(points, minimize)) return minimize;
+  const bool by_passed = varies(point_means(flights, points, "passed")) || !has_column(points, kClearance);
+  return by_passed ? "passed" : kClearance;
+}
+
+/// Returns per parameter whether its range is logarithmic.
+std::vector<bool> log_ranges(const nlohmann::ordered_json& design, const SweepTable& points) {
+  std::vector<bool> log(points.paths.size(), false);
+  for (const auto& parameter : design.value("parameters", nlohmann::ordered_json::array())) {
+    const auto path = std::ranges::find(points.paths, parameter.at("path").get<std::string>());
+    if (path != points.paths.end()) log[static_cast<size_t>(path - points.paths.begin())] = parameter.at("log");
   }
-  const std::vector<double> passed = point_means(flights, points, "passed");
-  const auto [low, high] = std::ranges::minmax(passed);
-  return low < high || !has_column(points, kClearance) ? "passed" : kClearance;
+  return log;
 }
 
 std::string label_of(const std::string& column) {
@@ -42,12 +46,6 @@ std::string label_of(const std::string& column) {
 
 }  // namespace
 
-bool more_is_better(const std::string& column) {
-  constexpr std::array kWords = {"clearance",     "passed",    "success", "progress",
-                                 "goal_velocity", "precision", "found",   "share"};
-  return std::ranges::any_of(kWords, [&](const char* word) { return column.find(word) != std::string::npos; });
-}
-
 std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTable& points, const std::string& column) {
   const std::vector<double> numbers = flights.table.numbers(column), means = point_means(flights, points, column);
   std::vector<PointFigure> figures;
@@ -59,7 +57,8 @@ std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTab
     for (const size_t row : rows) {
       squares += (numbers[row] - figure.mean) * (numbers[row] - figure.mean);
       const Verdict verdict = verdict_of(flights.records[row]);
-      figure.passed += verdict == Verdict::passed || verdict == Verdict::unchecked ? 1 : 0;
+      figure.passed += verdict == Verdict::passed ? 1 : 0;
+      figure.unchecked += verdict == Verdict::unchecked ? 1 : 0;
     }
     const auto n = static_cast<double>(rows.size());
     if (std::isnan(figure.mean)) continue;
@@ -81,7 +80,8 @@ std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTab
 SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightList& flights, std::string column) {
   SweepAnalysis analysis{.points = sweep_points(flights)};
   SweepTable& points = analysis.points;
-  if (column.empty()) column = default_column(folder, flights, points);
+  const nlohmann::ordered_json design = sweep_design(folder);
+  if (column.empty()) column = default_column(design, flights, points);
   if (!has_column(points, column)) {
     for (const std::string& name : points.columns) {
       if (name.ends_with("." + column))
@@ -92,14 +92,16 @@ SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightLis
   }
   analysis.column = column;
   analysis.label = label_of(column);
-  analysis.less = !more_is_better(column);
+  analysis.more_is_better = more_is_better(folder, flights, points);
+  analysis.less = !analysis.more_is_better.contains(column);
+  analysis.log = log_ranges(design, points);
   analysis.figures = point_figures(flights, points, column);
   const std::vector<double> clearance = has_column(points, kClearance) ? point_means(flights, points, kClearance)
                                                                        : std::vector<double>(points.rows.size());
   const auto key = [&](size_t i) {
     const PointFigure& figure = analysis.figures[i];
     const double cost = std::isnan(figure.mean) ? INFINITY : analysis.less ? figure.mean : -figure.mean;
-    return std::tuple(figure.passed < figure.flights, cost, std::isnan(clearance[i]) ? 0.0 : -clearance[i], i);
+    return std::tuple(!figure.none_failed(), cost, std::isnan(clearance[i]) ? 0.0 : -clearance[i], i);
   };
   analysis.ranking.resize(points.rows.size());
   std::iota(analysis.ranking.begin(), analysis.ranking.end(), size_t{0});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct PointFigure {
   double mean = 0.0;             ///< NaN if a flight lacks the figure
   double low = 0.0, high = 0.0;  ///< 95 % interval over the seeds: Student, or Wilson of `passed`; NaN for one seed
   size_t passed = 0, flights = 0;
+  size_t unchecked = 0;  ///< flights without checks
+
+  /// Whether no flight failed. Flights without checks count as passed for the order only.
+  bool none_failed() const { return passed + unchecked == flights; }
 };
 
 /// The ranking of a sweep's points by a column.
@@ -22,7 +27,9 @@ struct SweepAnalysis {
   std::string label;                 ///< the column with its unit apart, such as "min_obstacle_clearance, m"
   bool less = true;                  ///< whether less is better
   std::vector<PointFigure> figures;  ///< one per point
-  std::vector<size_t> ranking;       ///< points whose flights all passed first, then by the mean, then by the clearance
+  std::vector<size_t> ranking;       ///< points without failed flights first, then by the mean, then by the clearance
+  std::set<std::string> more_is_better;  ///< columns
+  std::vector<bool> log;                 ///< per parameter: whether its range is logarithmic
 };
 
 /// @param column  empty: the minimized column of an optimizer, else `passed` if it varies, else the clearance.
@@ -31,9 +38,6 @@ SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightLis
 
 /// Returns the figures of another column. Throws as analyze_sweep().
 std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTable& points, const std::string& column);
-
-/// Whether more of a column is better by its name: clearances, rates.
-bool more_is_better(const std::string& column);
 
 /// Writes tables (LaTeX with booktabs, and CSV) and figures (SVG and PDF) of a sweep for a paper.
 /// @param out  folder, created if necessary. @return the names of the files.

@@ -1,10 +1,12 @@
 #include "sim/pages/sweep_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "sim/batch/statistics.h"
 #include "sim/config/whole_file.h"
@@ -81,6 +83,30 @@ Json effects_data(const FlightList& flights, const SweepTable& points, const Jso
   return effects;
 }
 
+/// Returns whether more is better, for the columns of checks. Checks that hold decide before checks that failed,
+/// because a check that failed early may show another figure, such as the end of the flight.
+std::map<std::string, bool> check_directions(const std::filesystem::path& folder, const FlightList& flights,
+                                             const SweepTable& points) {
+  std::map<std::string, bool> more, of_failed;
+  const auto columns =
+      std::ranges::count_if(points.columns, [](const std::string& name) { return name.starts_with("check."); });
+  for (const FlightRecord& record : flights.records) {
+    if (std::cmp_equal(more.size(), columns)) break;
+    const std::filesystem::path file = folder / record.order.id / "result.json";
+    if (record.status != FlightRecord::Status::flown || !std::filesystem::exists(file)) continue;
+    try {
+      const std::vector<CheckResult> checks = read_result(file).flight.checks;
+      const std::vector<std::string> names = check_columns(checks);
+      for (size_t i = 0; i < names.size(); ++i) {
+        (checks[i].passed ? more : of_failed).try_emplace(names[i], checks[i].must != "<=");
+      }
+    } catch (const std::runtime_error&) {  // incomplete result.json: other flights decide
+    }
+  }
+  more.merge(of_failed);
+  return more;
+}
+
 }  // namespace
 
 SweepTable sweep_points(const FlightList& flights) {
@@ -118,18 +144,49 @@ std::vector<double> point_means(const FlightList& flights, const SweepTable& poi
   return means;
 }
 
+bool varies(const std::vector<double>& means) {
+  double low = INFINITY, high = -INFINITY;
+  for (const double mean : means) {
+    if (std::isfinite(mean)) low = std::min(low, mean), high = std::max(high, mean);
+  }
+  return low < high;
+}
+
+Json sweep_design(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "sweep.json";
+  return std::filesystem::exists(file) ? Json::parse(read_file_whole(file)) : Json::object();
+}
+
+std::set<std::string> more_is_better(const std::filesystem::path& folder, const FlightList& flights,
+                                     const SweepTable& points) {
+  constexpr std::array kWords = {"clearance",    "passed", "success",     "progress",          "goal_velocity",
+                                 "precision",    "found",  "visited",     "time_to_collision", "corners_seen",
+                                 "no_collision", "valid_", "_known_share"};
+  const std::string minimized = sweep_design(folder).value("minimize", "");
+  const auto of_checks = check_directions(folder, flights, points);
+  std::set<std::string> columns;
+  for (const std::string& column : points.columns) {
+    const auto check = of_checks.find(column);
+    const bool more = check != of_checks.end() ? check->second : std::ranges::any_of(kWords, [&](const char* word) {
+      return column.find(word) != std::string::npos;
+    });
+    if (more && column != minimized) columns.insert(column);
+  }
+  return columns;
+}
+
 Json sweep_data(const std::filesystem::path& folder, const FlightList& flights) {
   if (!flights.is_sweep || std::filesystem::exists(folder / "falsify.csv") || swept_columns(flights).empty()) {
     return nullptr;
   }
   const SweepTable points = sweep_points(flights);
-  Json design = Json::object();
-  if (std::filesystem::exists(folder / "sweep.json")) design = Json::parse(read_file_whole(folder / "sweep.json"));
+  const Json design = sweep_design(folder);
   Json data{{"design", design.value("design", "")}, {"parameters", design.value("parameters", Json::array())}};
   if (design.contains("minimize")) {
     data["minimize"] = design["minimize"];
     data["failure_cost"] = design["failure_cost"];
   }
+  data["more_is_better"] = more_is_better(folder, flights, points);
   data["student"] = Json::object();
   for (const auto& rows : points.rows) {
     const std::string count = std::to_string(rows.size());

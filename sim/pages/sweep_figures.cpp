@@ -32,7 +32,8 @@ struct Places {
   std::vector<double> level_at;
 };
 
-Places places_of(const SweepTable& points, size_t parameter) {
+Places places_of(const SweepAnalysis& analysis, size_t parameter) {
+  const SweepTable& points = analysis.points;
   Places places;
   std::vector<double> numbers;
   std::vector<std::string> words;
@@ -52,9 +53,11 @@ Places places_of(const SweepTable& points, size_t parameter) {
     places.level_words = words;
     return places;
   }
-  places.axis = FigureAxis::of_numbers(name, numbers);
+  const bool log = analysis.log[parameter] && std::ranges::min(numbers) > 0.0;
+  places.axis = log ? FigureAxis::of_logarithms(name, numbers) : FigureAxis::of_numbers(name, numbers);
   places.at = numbers;
-  std::vector<double> levels = numbers;
+  if (log) std::ranges::transform(numbers, places.at.begin(), [](double number) { return std::log10(number); });
+  std::vector<double> levels = places.at;
   std::ranges::sort(levels);
   levels.erase(std::ranges::unique(levels).begin(), levels.end());
   const double low = levels.front(), step = (levels.back() - low) / static_cast<double>(kBins);
@@ -62,12 +65,14 @@ Places places_of(const SweepTable& points, size_t parameter) {
     levels.clear();
     for (size_t i = 0; i < kBins; ++i) levels.push_back(low + (static_cast<double>(i) + 0.5) * step);
   }
-  for (const double number : numbers) {
-    const auto nearest = std::ranges::min_element(levels, {}, [&](double level) { return std::abs(level - number); });
+  for (const double at : places.at) {
+    const auto nearest = std::ranges::min_element(levels, {}, [&](double level) { return std::abs(level - at); });
     places.level.push_back(static_cast<size_t>(nearest - levels.begin()));
   }
   places.level_at = levels;
-  for (const double level : levels) places.level_words.push_back(fmt::format("{:.4g}", level));
+  for (const double level : levels) {
+    places.level_words.push_back(fmt::format("{:.4g}", log ? std::pow(10.0, level) : level));
+  }
   return places;
 }
 
@@ -89,7 +94,7 @@ FigureCanvas main_effects(const SweepAnalysis& analysis) {
   const size_t count = analysis.points.paths.size();
   FigureCanvas canvas(kWidth, kHeight * static_cast<double>(count));
   for (size_t p = 0; p < count; ++p) {
-    const Places places = places_of(analysis.points, p);
+    const Places places = places_of(analysis, p);
     FigurePlot plot(canvas, {0.0, kHeight * static_cast<double>(p)}, kWidth, kHeight, places.axis,
                     FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
     std::vector<std::vector<size_t>> groups(places.level_at.size());
@@ -111,7 +116,7 @@ FigureCanvas main_effects(const SweepAnalysis& analysis) {
 
 FigureCanvas heat_map(const SweepAnalysis& analysis, size_t across, size_t up) {
   FigureCanvas canvas(kWidth, 1.1 * kHeight);
-  const Places x = places_of(analysis.points, across), y = places_of(analysis.points, up);
+  const Places x = places_of(analysis, across), y = places_of(analysis, up);
   const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, 1.1 * kHeight,
                         FigureAxis::of_words(analysis.points.paths[across], x.level_words),
                         FigureAxis::of_words(analysis.points.paths[up], y.level_words));
@@ -143,12 +148,11 @@ FigureCanvas pareto(const SweepAnalysis& analysis, const std::string& other, con
   FigureCanvas canvas(kWidth, kHeight);
   const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, kHeight, FigureAxis::of_numbers(other, means(figures)),
                         FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
-  const std::vector<size_t> front = pareto_front(analysis, figures, !more_is_better(other));
+  const std::vector<size_t> front = pareto_front(analysis, figures, !analysis.more_is_better.contains(other));
   for (size_t i = 0; i < figures.size(); ++i) {
     if (std::isnan(figures[i].mean) || std::isnan(analysis.figures[i].mean)) continue;
-    const bool passed = figures[i].passed == figures[i].flights;
     canvas.circle(plot.at(figures[i].mean, analysis.figures[i].mean), 2.0,
-                  {.fill = passed ? kBlue : kOrange, .stroke = ""});
+                  {.fill = figures[i].none_failed() ? kBlue : kOrange, .stroke = ""});
   }
   std::vector<Point> steps;
   for (const size_t i : front) {
@@ -196,10 +200,7 @@ std::string second_column(const FlightList& flights, const SweepAnalysis& analys
     if (name == analysis.column || std::ranges::find(analysis.points.columns, name) == analysis.points.columns.end()) {
       continue;
     }
-    const std::vector<double> values = point_means(flights, analysis.points, name);
-    if (std::ranges::any_of(values, [&](double value) { return std::isfinite(value) && value != values[0]; })) {
-      return name;
-    }
+    if (varies(point_means(flights, analysis.points, name))) return name;
   }
   return "";
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/batch/record.h"
+#include "sim/config/numbers.h"
 #include "sim/record/table.h"
 
 namespace hedgehop::sim {
@@ -27,11 +29,26 @@ std::string latex(const std::string& text) {
   return out;
 }
 
+/// Returns the text of a number with a minus instead of a hyphen; a zero has no sign.
+std::string with_minus(const std::string& text) {
+  if (!text.starts_with('-')) return text;
+  const std::string digits = text.substr(1);
+  return digits.find_first_of("123456789") == std::string::npos ? digits : "$-$" + digits;
+}
+
 std::string latex_number(double value, int figures = 4) {
-  if (std::isnan(value)) return "--";
-  std::string text = fmt::format("{:.{}g}", value, figures);
-  if (text.starts_with('-')) text = "$-$" + text.substr(1);
-  return text;
+  return std::isnan(value) ? "--" : with_minus(fmt::format("{:.{}g}", value, figures));
+}
+
+std::string latex_value(const std::string& value) {
+  return parse_number(value, false).kind == ParsedNumber::Kind::number ? with_minus(value) : latex(value);
+}
+
+/// Returns "2 of 3" with the number of flights without checks, or "no checks".
+std::string passed_words(const PointFigure& figure) {
+  if (figure.unchecked == figure.flights) return std::string(kNoChecks);
+  const std::string words = fmt::format("{} of {}", figure.passed, figure.flights);
+  return figure.unchecked == 0 ? words : fmt::format("{}; {}: {}", words, kNoChecks, figure.unchecked);
 }
 
 /// @param words  number of first columns, which are aligned to the left.
@@ -52,7 +69,7 @@ Words column_of(const SweepAnalysis& analysis, const std::vector<size_t>& order,
 }  // namespace
 
 std::string ranking_csv(const FlightList& flights, const SweepAnalysis& analysis) {
-  std::vector<double> rank, mean, low, high, passed, count;
+  std::vector<double> rank, mean, low, high, passed, unchecked, count;
   Words numbers, commands;
   const Words all_commands = flights.table.words("command");
   for (const size_t i : analysis.ranking) {
@@ -63,6 +80,7 @@ std::string ranking_csv(const FlightList& flights, const SweepAnalysis& analysis
     low.push_back(figure.low);
     high.push_back(figure.high);
     passed.push_back(static_cast<double>(figure.passed));
+    unchecked.push_back(static_cast<double>(figure.unchecked));
     count.push_back(static_cast<double>(figure.flights));
     commands.push_back(all_commands[analysis.points.rows[i][0]]);
   }
@@ -77,6 +95,7 @@ std::string ranking_csv(const FlightList& flights, const SweepAnalysis& analysis
   table.add("high_95", high);
   table.add("passed", passed);
   table.add("flights", count);
+  table.add("no_checks", unchecked);
   table.add("command", commands);
   return table.csv();
 }
@@ -91,10 +110,10 @@ std::string ranking_latex(const SweepAnalysis& analysis) {
     if (rows.size() == kRows) break;
     const PointFigure& figure = analysis.figures[i];
     Words row = {std::to_string(rows.size() + 1)};
-    for (const std::string& value : analysis.points.values[i]) row.push_back(latex(value));
+    for (const std::string& value : analysis.points.values[i]) row.push_back(latex_value(value));
     row.push_back(latex_number(figure.mean));
     row.push_back(std::isnan(figure.low) ? "--" : latex_number(figure.low) + " to " + latex_number(figure.high));
-    row.push_back(fmt::format("{} of {}", figure.passed, figure.flights));
+    row.push_back(passed_words(figure));
     rows.push_back(std::move(row));
   }
   return latex_table(head, rows, 0);
@@ -105,7 +124,7 @@ std::vector<size_t> pareto_front(const SweepAnalysis& analysis, const std::vecto
   for (size_t i = 0; i < figures.size(); ++i) {
     if (std::isnan(figures[i].mean) || std::isnan(analysis.figures[i].mean)) continue;
     known.push_back(i);
-    if (figures[i].passed == figures[i].flights) passing.push_back(i);
+    if (figures[i].none_failed()) passing.push_back(i);
   }
   if (!passing.empty() && analysis.column != "passed") known = passing;
   const auto x = [&](size_t i) { return less ? figures[i].mean : -figures[i].mean; };
@@ -123,7 +142,7 @@ std::vector<size_t> pareto_front(const SweepAnalysis& analysis, const std::vecto
 
 std::string pareto_csv(const SweepAnalysis& analysis, const std::string& other,
                        const std::vector<PointFigure>& figures) {
-  const std::vector<size_t> front = pareto_front(analysis, figures, !more_is_better(other));
+  const std::vector<size_t> front = pareto_front(analysis, figures, !analysis.more_is_better.contains(other));
   Table table;
   Words numbers;
   std::vector<double> x, y;
@@ -161,7 +180,7 @@ std::string indices_latex(const SweepAnalysis& analysis, const nlohmann::ordered
   if (!exact) heads = {"parameter", "$S_i$", "95\\,\\% interval", "$S_{Ti}$", "95\\,\\% interval"};
   std::vector<Words> rows;
   for (size_t p = 0; p < analysis.points.paths.size(); ++p) {
-    const auto cell = [&](size_t k) { return fmt::format("{:.2f}", indices[p][k].get<double>()); };
+    const auto cell = [&](size_t k) { return with_minus(fmt::format("{:.2f}", indices[p][k].get<double>())); };
     const auto interval = [&](size_t k) { return cell(k + 1) + " to " + cell(k + 2); };
     Words& row = rows.emplace_back(Words{"\\texttt{" + latex(analysis.points.paths[p]) + "}"});
     for (const size_t k : {0U, 3U}) {

@@ -13,8 +13,8 @@ std::string ranking_csv(const FlightList& flights, const SweepAnalysis& analysis
 /// The ten best points as a LaTeX table (package booktabs).
 std::string ranking_latex(const SweepAnalysis& analysis);
 
-/// Returns the indices of the points that no other beats in both columns, sorted by `figures`. Only points whose
-/// flights all passed take part, if there are any.
+/// Returns the indices of the points that no other beats in both columns, sorted by `figures`. Only points without
+/// failed flights take part, if there are any.
 /// @param figures  of the other column. @param less  whether less of it is better.
 std::vector<size_t> pareto_front(const SweepAnalysis& analysis, const std::vector<PointFigure>& figures, bool less);
 std::string pareto_csv(const SweepAnalysis& analysis, const std::string& other,

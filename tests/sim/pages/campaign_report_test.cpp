@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <random>
 
-#include "sim/batch/flight_table.h"
 #include "sim/pages/campaign_data.h"
-#include "sim/scenario/scenario.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
+#include "tests/sim/pages/made_up_sweep.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -16,46 +16,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// A sweep of synthetic flights: each odd one collides; clearance and time are random.
-std::vector<FlightRecord> made_up(int count, uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> clearance(0.1, 5.0), time(10.0, 60.0);
-  std::vector<FlightRecord> records;
-  for (int i = 0; i < count; ++i) {
-    FlightRecord record{.status = FlightRecord::Status::flown};
-    record.order = {.id = "flights/" + std::to_string(i),
-                    .group = "point p" + std::to_string(i) + " gain",
-                    .scenario = "room.yaml"};
-    record.order.seed = static_cast<uint64_t>(i % 4);
-    const bool collides = i % 2 == 1;
-    FlightResult& result = record.result.emplace().flight;
-    result.outcome = collides ? Outcome::collided : Outcome::reached;
-    result.flight_time_s = time(random);
-    result.closest_obstacle.distance_m = collides ? 0.0 : clearance(random);
-    result.checks = {{.name = "no_collision", .passed = !collides, .value = 1.0, .limit = 0.0, .unit = "m"}};
-    records.push_back(record);
-  }
-  return records;
-}
-
-/// Writes the table of the flights and, for each flight, a scenario and a straight path.
-void write_sweep(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
-  std::filesystem::create_directories(folder);
-  std::vector<double> point, gain;
-  const std::string scenario = to_yaml(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_room_0_light.yaml"));
-  for (size_t i = 0; i < records.size(); ++i) {
-    point.push_back(static_cast<double>(i));
-    gain.push_back(0.5 * static_cast<double>(i / 4));
-    const std::filesystem::path flight = folder / records[i].order.id;
-    std::filesystem::create_directories(flight);
-    write_file_whole(flight / "scenario.yaml", scenario);
-    write_file_whole(flight / "trajectory.csv", "north_m,east_m,down_m\n0,0,-1\n1," + std::to_string(i) + ",-1\n");
-  }
-  write_file_whole(folder / "sweep.csv", flight_table(records, {{.name = "point", .values = point, .whole = true},
-                                                                {.name = "avoidance.gain", .values = gain}})
-                                             .csv());
-}
 
 TEST(CampaignInBrowser, OpensAsOneFileAndSortsFiltersAndSelects) {
   HEDGEHOP_NEEDS_BROWSER();
@@ -138,6 +98,26 @@ TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedChec
   EXPECT_THAT(page.value.at("tile").get<std::string>(),
               HasSubstr("20 reached + 10 completed + 30 collided = 60 flights"));
   EXPECT_EQ(page.value.at("outcomes"), nlohmann::json::array({"collided", "completed", "reached"}));
+}
+
+TEST(CampaignInBrowser, GivesNoVerdictWhileFlightsAreMissing) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(4, 8);
+  records[1].status = FlightRecord::Status::missing;
+  records[1].result.reset();
+  records[3].status = FlightRecord::Status::failed;
+  records[3].result.reset();
+  write_sweep(folder.path(), records);
+  EXPECT_THAT(Table(folder.path() / "sweep.csv").words("passed"), ElementsAre("1", "", "1", "0"));
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const badge = document.querySelector('#head .badge'), column = [...document.querySelectorAll('#flights th')].findIndex((th) => th.dataset.column === 'passed');
+    return [badge.className.trim(), badge.textContent, document.querySelector('#flights tbody tr[data-row="1"]').children[column].textContent];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "badge");
+  EXPECT_THAT(page.value[1].get<std::string>(), HasSubstr("1 of 4 flights is missing: no verdict"));
+  EXPECT_EQ(page.value[2], "\u2013");
 }
 
 TEST(CampaignInBrowser, ShowsTheNamesOfTheWorstFlightsNextToLongCauses) {
@@ -251,6 +231,22 @@ TEST(AgainstData, MatchesFlightsWithOtherSettingsByScenarioAndSeed) {
   for (size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(data.at("flights")[i].at("time_s"), records[i].result->flight.flight_time_s) << i;
   }
+}
+
+/// With 1 of 2 passed, the Wilson interval is 0.5 -+ 0.5 z / sqrt(2 + z^2).
+TEST(AgainstData, HasNoChangeIfABatchWasStoppedDependingOnItsResults) {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), made_up(2, 11));
+  const FlightList flights = read_flights(folder.path());
+  EXPECT_FALSE(against_data(flights, flights).at("groups")[0].at("change").is_null());
+  EXPECT_TRUE(against_data(flights, flights).at("no_change").is_null());
+  const auto data = against_data(flights, flights, {.before = true});
+  EXPECT_THAT(data.at("no_change").get<std::string>(), HasSubstr("--until"));
+  for (const auto& group : data.at("groups")) EXPECT_TRUE(group.at("change").is_null());
+  const double before = data.at("groups")[0].at("before").at("low"), now = data.at("groups")[0].at("now").at("low");
+  constexpr double kZ = 1.959964;
+  EXPECT_NEAR(now, 0.5 - 0.5 * kZ / std::sqrt(2.0 + kZ * kZ), 1e-6);
+  EXPECT_LT(before, now) << "valid at any time, so wider";
 }
 
 TEST(CampaignReport, OfAThousandFlightsWithLongPathsStaysBelowTenMegabytes) {

@@ -121,6 +121,21 @@ TEST(FilmStrip, IsNotWrittenIfTheFlightDiffersFromTheTable) {
   EXPECT_EQ(folder.hedgehop("report out/wall/seed1 --film-strips 1").status, 2);
 }
 
+TEST(RunCommand, RemovesTheFilmOfAnEarlierFlightIfThereAreNoImages) {
+  const CampaignFolder folder;
+  folder.write("blind.yaml",
+               "name: blind\nduration: 0.2\nscene: {type: corridor, width: 10, sections: [{length: 40}]}\n"
+               "velocimeter: {enabled: false}\nvehicle: {use: " HEDGEHOP_SOURCE_DIR
+               "/configs/vehicles/hummingbird.yaml}\nstart: {north: 5, east: 0, altitude: 1.5, heading: 0}\n"
+               "goal: {north: 35, east: 0, altitude: 1.5, radius: 1}\navoidance: {module: go_to_goal, speed: 1}\n"
+               "checks: [{check: no_collision}]\n");
+  std::filesystem::create_directories(folder.path() / "out");
+  folder.write("out/video.webm", "old");
+  const CommandEnd end = folder.hedgehop("run blind.yaml --out out");
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/video.webm"));
+}
+
 TEST(FilmStrip, IsRemovedIfItsFlightIsFlownAgain) {
   const WallFolder folder;
   folder.write("out/wall/seed1/strip.jpg", "old");

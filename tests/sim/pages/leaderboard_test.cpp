@@ -7,7 +7,9 @@
 #include "avoidance/registry.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/flight_table.h"
+#include "sim/config/whole_file.h"
 #include "sim/fields/field_types.h"
+#include "sim/pages/campaign_report.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
 
@@ -106,6 +108,32 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
   EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
 }
 
+TEST(LeaderboardInBrowser, FiltersByExactGroupsAndSeeds) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records{{.status = FlightRecord::Status::flown}};
+  records[0].order = {.id = "a", .group = "a", .scenario = "a.yaml"};
+  records[0].result.emplace().flight.flight_time_s = 3.0;
+  write_file_whole(folder.path() / "batch.csv", flight_table(records).csv());
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const column = (name, is_text, values) => ({name, unit: '', is_text, values}), words = ['', '', ''];
+    const table = new FlightTable({why: words, failed: words, columns: [column('id', true, ['so_far_a/seed1', 'far_a/seed1', 'b']),
+      column('group', true, ['so_far_a', 'far_a', 'two words']), column('outcome', true, ['reached', 'reached', 'reached']),
+      column('seed', false, ['18446744073709551615', '18446744073709551614', '7'])]});
+    const rows = (text) => filteredRows(table, parseFilter(table, text).terms), shown = [];
+    for (const [world, group] of [['far', 'far_a'], ['two', 'two words']]) {
+      boardCell({world, module: 'a', group, passed: 1, flights: 1, flown: 1, collided: 0, low: 0, high: 1, broken: 0, median_clearance_m: 1, path_excess: 0,
+        mean_speed_mps: 1, decision_ms: 1}, {filter: (text) => shown.push(rows(text))}).click();
+    }
+    return {shown, seed: rows('seed=18446744073709551615'), less: rows('seed<18446744073709551615'), seven: rows('seed=7.0'),
+            sorted: sortedRows([0, 1, 2], table.columns.get('seed'), false), list: seedList([0, 1, 2].map((row) => table.seed(row)))};)js");
+  EXPECT_THAT(page.errors, testing::IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse(
+                            R"({"shown": [[1], [2]], "seed": [0], "less": [1, 2], "seven": [2], "sorted": [2, 1, 0],
+                                "list": "7,18446744073709551614:18446744073709551615"})"));
+}
+
 TEST(Leaderboard, IsEqualAfterFailedFlightsAreFlownAgain) {
   const LeaderboardFolder folder;
   ASSERT_EQ(folder.hedgehop("batch board.yaml --out out").status, 1);
@@ -140,6 +168,31 @@ TEST(Leaderboard, CellsNotFlownYetAreMissingAndDoNotCountForDifficulty) {
   EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
   for (Json& one : data.at("cells")) one["min_clearance_m"] = -0.002;
   EXPECT_THAT(leaderboard_text(data), AllOf(HasSubstr(" 0.00 |"), Not(HasSubstr("-0.00"))));
+}
+
+/// Three flights without checks collide, one with checks passes, one ends by a fault: Wilson interval of 3 of 4 by
+/// hand.
+TEST(Leaderboard, CollisionsReferToAllFlightsWithoutAFault) {
+  const TemporaryFolder folder;
+  Leaderboard board = leaderboard_of({.seeds = "1", .worlds = {{"w", "a.yaml"}}, .modules = {{.name = "m"}}});
+  board.cells[0].group = "w_m";
+  std::vector<FlightRecord> records(5);
+  for (size_t i = 0; i < 5; ++i) {
+    records[i].order.id = "f" + std::to_string(i);
+    records[i].order.group = "w_m";
+    records[i].status = FlightRecord::Status::flown;
+    FlightResult& flight = records[i].result.emplace().flight;
+    flight.outcome = i < 3 ? Outcome::collided : i == 3 ? Outcome::reached : Outcome::fault;
+    if (i == 3) flight.checks = {{.name = "reached_goal", .passed = true, .unit = "m"}};
+  }
+  write_leaderboard(folder.path(), board);
+  write_file_whole(folder.path() / "batch.csv", flight_table(records).csv());
+  const std::string text = leaderboard_text(leaderboard_data(folder.path(), read_flights(folder.path())));
+  EXPECT_THAT(text, HasSubstr("| m | 1 | 2 | 1 | 3 of 4 | 0.301 to 0.954 |"));
+  EXPECT_THAT(text, HasSubstr("| w | m | 2 | 1 | 3 of 4 | 0 | 1 |"));
+  EXPECT_THAT(text,
+              HasSubstr("Collisions of m: among its 4 flights without a fault, with or without checks; fault or no "
+                        "result: 1.\n"));
 }
 
 TEST(Leaderboard, RejectsUnknownAndRepeatedNames) {

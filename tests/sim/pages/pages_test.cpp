@@ -97,7 +97,7 @@ TEST(ReportInBrowser, StartsWithASummaryOfACollisionAndReplacesConstantPlotsByTe
             document.querySelectorAll('.chart.flat .uplot').length];)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value[0], fmt::format("Hit tower at 10.0 s, flying {:.1f} m/s at {:.1f} m altitude.",
-                                       end.v_WB_W_true.head<2>().norm(), -end.p_WB_true.z()));
+                                       end.v_WB_W_true.norm(), -end.p_WB_true.z()));
   EXPECT_THAT(page.value[1].get<std::string>(), ::testing::HasSubstr("> 0 m"));
   EXPECT_THAT(page.value[2], ElementsAre("Wind"));
   EXPECT_EQ(page.value[3], 0);

@@ -4,8 +4,10 @@
 #include "sim/config/whole_file.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/pages/campaign_report.h"
+#include "sim/pages/figure_plot.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
+#include "sim/pages/runs_page.h"
 #include "sim/record/result_files.h"
 #include "tests/sim/pages/browser.h"
 #include "tests/sim/pages/run_folder.h"
@@ -146,6 +148,118 @@ TEST(ReportInBrowser, NamesTheObstacleOfAPassedCheckAndMetricsOfTheModule) {
   const auto colors = page.value[8].get<std::vector<std::string>>();
   for (const size_t i : {0U, 2U, 4U}) EXPECT_EQ(colors[i], colors[i + 1]) << "a signal has one color in both runs";
   EXPECT_NE(colors[0], colors[4]);
+}
+
+TEST(ReportInBrowser, ShowsAFaultAsBadAlthoughItsChecksHold) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.outcome = Outcome::link_lost;
+  flight.result.checks = {{"no_collision", true, 1.5, 0.0, "m", ">"}};
+  write_result_files(run.path(), {.scenario = "fault", .seed = 18446744073709551615U, .scenario_yaml = run.yaml()},
+                     flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const words = (outcome, goal_distance_m) => judge({outcome, goal_distance_m}).words;
+    return [document.querySelector('.badge').className, document.getElementById('verdict').textContent.includes('seed 18446744073709551615,'),
+            words('timeout', null), words('timeout', 12), measured(2.0400001, 'm', checkFigures(2.0400001, 2.04, 'm'))];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value,
+            nlohmann::json::array({"badge bad", true, "Completed", "Timeout before the goal", "2.0400001 m"}));
+}
+
+TEST(ReportInBrowser, NamesTheGroundIfTheFlightHitIt) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  for (TrajectoryRow& row : flight.trajectory) row.ground_clearance_m = 1.5;
+  flight.result.outcome = Outcome::collided;
+  flight.result.cause = "hit the ground at 10.000 s";
+  flight.result.closest_obstacle = {.distance_m = 8.0, .t_s = 2.0, .what = "wall"};
+  flight.result.closest_ground = {.distance_m = -0.01, .t_s = 10.0, .what = "ground"};
+  write_result_files(run.path(), {.scenario = "low", .scenario_yaml = run.yaml()}, flight);
+  write_report(run.path(), read_run(run.path()));
+  const PageVisit page = visit(run.path() / "report.html", R"js(
+    const near = {distance_m: 0, what: 'wall'}, far = {distance_m: 8, what: 'wall'}, ground = {distance_m: -0.01, what: 'ground'};
+    return [document.getElementById('story').textContent, hitWords({closest_obstacle: far, closest_ground: ground}),
+            hitWords({closest_obstacle: near, closest_ground: null}), hitWords({cause: 'hit tree 8 at 3.250 s', closest_obstacle: near, closest_ground: ground})];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value[0].get<std::string>(), HasSubstr("Hit the ground at 10.0 s"));
+  EXPECT_THAT(page.value[0].get<std::string>(), HasSubstr("2 s before: clearance to the ground 1.5 m"));
+  EXPECT_EQ(page.value[1], "the ground");
+  EXPECT_EQ(page.value[2], "wall");
+  EXPECT_EQ(page.value[3], "tree 8");
+}
+
+/// The page must not hang.
+TEST(CampaignInBrowser, HasFewTicksForEqualNumbersAndDeepZoom) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  write_speeds(folder.path());
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const ticks = [Array(10).fill(1e17), [12.3, 12.3 + 2e-15], [1e-9, 2e-9], [0, 0]].map((values) => {
+      const {low, high} = numberAxis('x', values), {values: marks} = niceTicks(low, high, 6);
+      return marks.length >= 2 && marks.length <= 7 && new Set(marks).size === marks.length;
+    });
+    const map = new MapView(document.body.appendChild(make('div')), {bounds: [1e5, 1e5 + 50, 0, 50], footprints: [{corners: [[0, 0], [1, 1]], level: 'at_altitude'}],
+      movers: [], goal: null}, {n: [1e5], e: [0]}, {draw: () => {}, key: () => {}});
+    for (let i = 0; i < 60; ++i) map.zoom(1.6);
+    return {ticks, zoomed: Math.abs(Math.min(map.view.width, map.view.height) - 0.01) < 1e-9, solid: map.solidAt(5, 7) ?? null};)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value, nlohmann::json::parse(R"({"ticks": [true, true, true, true], "zoomed": true, "solid": null})"));
+}
+
+TEST(FigureAxis, HasFewTicksForEqualNumbers) {
+  const std::vector<double> equal(10, 1e17);
+  for (const auto& values : std::vector<std::vector<double>>{equal, {12.3, 12.3 + 2e-15}, {0.0, 0.0}}) {
+    const FigureAxis axis = FigureAxis::of_numbers("x", values);
+    EXPECT_LT(axis.low, axis.high);
+    EXPECT_GE(axis.ticks.size(), 2U);
+    EXPECT_LE(axis.ticks.size(), 6U);
+  }
+}
+
+TEST(ColumnsData, HasSeedsAsTexts) {
+  std::vector<FlightRecord> records(1);
+  records[0].order = {.id = "a", .group = "a", .scenario = "a.yaml", .seed = 18446744073709551615U};
+  const auto columns = columns_data(flight_table(records), std::vector<FlightNotes>(1));
+  const auto seeds = std::ranges::find_if(columns, [](const auto& column) { return column.at("name") == "seed"; });
+  ASSERT_NE(seeds, columns.end());
+  EXPECT_EQ(seeds->at("values"), nlohmann::ordered_json::array({"18446744073709551615"}));
+  EXPECT_EQ(seeds->at("is_text"), false);
+}
+
+TEST(AgainstData, CallsATimeoutWithoutAGoalCompleted) {
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(2);
+  for (size_t i = 0; i < records.size(); ++i) {
+    records[i].status = FlightRecord::Status::flown;
+    records[i].order = {.id = "f" + std::to_string(i), .group = "f", .scenario = "room.yaml", .seed = i};
+    records[i].result.emplace().flight.outcome = Outcome::timeout;
+  }
+  records[1].result->flight.goal_distance_m = 12.0;
+  write_file_whole(folder.path() / "batch.csv", flight_table(records).csv());
+  const FlightList flights = read_flights(folder.path());
+  const auto data = against_data(flights, flights);
+  EXPECT_EQ(data.at("flights").at(0).at("outcome"), "completed");
+  EXPECT_EQ(data.at("flights").at(1).at("outcome"), "timeout");
+}
+
+TEST(RunsData, FlightsAfterANestedCampaignBelongToTheOuterOne) {
+  const TemporaryFolder folder;
+  for (const char* const campaign : {"outer", "outer/inner"}) {
+    std::filesystem::create_directories(folder.path() / campaign);
+    write_speeds(folder.path() / campaign);
+  }
+  for (const char* const run : {"outer/inner/a", "outer/z", "z"}) {
+    write_result_files(folder.path() / run, {.scenario = run, .scenario_yaml = "name: a\n"}, fake_flight(0.1, 1));
+  }
+  const auto runs = runs_data(folder.path()).at("runs");
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[0].at("campaign"), "outer/inner");
+  EXPECT_EQ(runs[1].at("campaign"), "outer");
+  EXPECT_EQ(runs[2].at("campaign"), "");
 }
 
 TEST(TrimInBrowser, SurroundsASingleSpeedAndIgnoresRoundingErrors) {

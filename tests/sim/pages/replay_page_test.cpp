@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
+#include "sim/pages/replay_images.h"
 #include "sim/record/run_record.h"
 #include "sim/record/table.h"
 #include "tests/sim/pages/browser.h"
@@ -127,6 +129,26 @@ TEST(ReplayInBrowser, HasOneTimeAxisForStatusEventsHandleAndKeys) {
   EXPECT_THAT(page.value, ElementsAre(true, true, true, true, true));
 }
 
+TEST(ReplayInBrowser, LeavesTheSpaceKeyToControlsAndNamesTheGround) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const RunFolder run;
+  Flight flight = fake_flight(10.0, 1);
+  flight.result.outcome = Outcome::collided;
+  flight.result.closest_obstacle = {.distance_m = 8.0, .t_s = 2.0, .what = "wall"};
+  flight.result.closest_ground = {.distance_m = 0.0, .t_s = 10.0, .what = "ground"};
+  write_result_files(run.path(), {.scenario = "low", .scenario_yaml = run.yaml()}, flight);
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit_replay(run.path(), R"js(
+    const taken = (element) => {
+      const event = new KeyboardEvent('keydown', {code: 'Space', key: ' ', bubbles: true, cancelable: true});
+      element.dispatchEvent(event);
+      return event.defaultPrevented;
+    };
+    return [...['show-names', 'speed', 'play'].map((id) => taken(document.getElementById(id))), taken(document.body), replay.track.events.at(-1).text];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_THAT(page.value, ElementsAre(false, false, false, true, "hit the ground"));
+}
+
 TEST(ReplayInBrowser, ShowsTexturesLightAndTheImagesOfAllCameras) {
   HEDGEHOP_NEEDS_BROWSER();
   const RunFolder run;
@@ -171,6 +193,22 @@ TEST(ReplayInBrowser, ShowsTheMapAndThePathOfTheModuleAtEachTime) {
     return [1, 3, 7].map((t) => { replay.setTime(t); return drawn(); });)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value, nlohmann::json::parse("[[false, null], [true, null], [false, null]]"));
+}
+
+TEST(CameraFilm, NeedsNoTemporaryFolderAndItsFaultHasACause) {
+  const RunFolder run;
+  const RunRecord record = read_run(run.path());
+  ASSERT_EQ(setenv("TMPDIR", "/nonexistent", 1), 0);
+  const CameraFilm film = camera_film(record, run.path());
+  unsetenv("TMPDIR");
+  EXPECT_EQ(film.fault, "");
+  EXPECT_FALSE(film.bytes.empty());
+  for (const auto& entry : std::filesystem::directory_iterator(run.path())) {
+    EXPECT_NE(entry.path().extension(), ".webm") << "the film is in the page";
+  }
+  const CameraFilm none = camera_film(record, run.path() / "missing");
+  EXPECT_EQ(none.bytes, "");
+  EXPECT_THAT(none.fault, ::testing::HasSubstr("missing"));
 }
 
 }  // namespace

@@ -269,7 +269,8 @@ TEST(Report, OfAFlightInMemoryEqualsThatFromItsFiles) {
   write_result_files(folder.path(), info, flight);
   using Write = void (*)(const std::filesystem::path&, const RunRecord&);
   const Write report = [](const std::filesystem::path& to, const RunRecord& run) { write_report(to, run); };
-  for (const auto& [write, page] : {std::pair(report, "report.html"), std::pair(Write(&write_replay), "replay.html")}) {
+  const Write replay = [](const std::filesystem::path& to, const RunRecord& run) { write_replay(to, run); };
+  for (const auto& [write, page] : {std::pair(report, "report.html"), std::pair(replay, "replay.html")}) {
     write(folder.path(), run_record(scenario, info, flight));
     const std::string in_memory = read_file_whole(folder.path() / page);
     std::filesystem::remove(folder.path() / page);

@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "sim/pages/campaign_report.h"
+#include "sim/pages/figure_plot.h"
 #include "sim/pages/sweep_analysis.h"
+#include "sim/pages/sweep_tables.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
 
@@ -46,6 +50,89 @@ std::filesystem::path write_grid(const std::filesystem::path& folder) {
                                                                 {.name = "avoidance.range", .values = ranges}})
                                              .csv());
   return folder;
+}
+
+/// Writes a sweep over the gain with one flight per record, and their result.json.
+void write_points(const std::filesystem::path& folder, std::vector<FlightRecord>& records,
+                  const std::vector<double>& gains) {
+  std::vector<std::string> points;
+  for (FlightRecord& record : records) {
+    points.push_back("p" + std::to_string(points.size()));
+    record.status = FlightRecord::Status::flown;
+    record.order = {.id = points.back(), .group = "point " + points.back(), .scenario = "room.yaml", .seed = 1};
+    std::filesystem::create_directories(folder / record.order.id);
+    write_file_whole(folder / record.order.id / "result.json", result_json(record.result->info, record.result->flight));
+  }
+  write_file_whole(
+      folder / "sweep.csv",
+      flight_table(records, {{.name = "point", .values = points}, {.name = "avoidance.gain", .values = gains}}).csv());
+}
+
+TEST(SweepAnalysis, RanksTheMinimizedColumnByItsMinimum) {
+  const TemporaryFolder folder;
+  const FlightList flights = read_flights(write_grid(folder.path()));
+  write_file_whole(folder.path() / "sweep.json", R"({"design": "optimize", "minimize": "min_obstacle_clearance_m"})");
+  EXPECT_THAT(analyze_sweep(folder.path(), flights, "").ranking, ::testing::ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+/// A robustness must be at least 0, a speed at most 3 m/s.
+TEST(SweepAnalysis, RanksChecksByTheRelationThatTheyRequire) {
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(2);
+  for (size_t i = 0; i < 2; ++i) {
+    const double value = 1.0 + static_cast<double>(i);
+    FlightResult& flight = records[i].result.emplace().flight;
+    flight.outcome = Outcome::reached;
+    flight.checks = {{.name = "near_goal", .passed = true, .value = value, .limit = 0.0, .unit = "", .must = ">="},
+                     {.name = "max_speed", .passed = true, .value = value, .limit = 3.0, .unit = "m/s"}};
+  }
+  write_points(folder.path(), records, {1.0, 2.0});
+  const FlightList flights = read_flights(folder.path());
+  EXPECT_THAT(analyze_sweep(folder.path(), flights, "check.near_goal").ranking, ::testing::ElementsAre(1, 0));
+  EXPECT_THAT(analyze_sweep(folder.path(), flights, "check.max_speed").ranking, ::testing::ElementsAre(0, 1));
+  const auto data = sweep_data(folder.path(), flights);
+  EXPECT_THAT(data.at("more_is_better").get<std::vector<std::string>>(), ::testing::Contains("check.near_goal"));
+}
+
+TEST(SweepTables, DoNotCountFlightsWithoutChecksAsPassed) {
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(2);
+  for (FlightRecord& record : records) record.result.emplace().flight.outcome = Outcome::reached;
+  records[1].result->flight.checks = {{.name = "no_collision", .passed = true, .unit = "m"}};
+  write_points(folder.path(), records, {-0.5, 2.0});
+  const FlightList flights = read_flights(folder.path());
+  const SweepAnalysis analysis = analyze_sweep(folder.path(), flights, "flight_time_s");
+  EXPECT_EQ(analysis.figures[0].passed, 0u);
+  write_file_whole(folder.path() / "ranking.csv", ranking_csv(flights, analysis));
+  EXPECT_THAT(Table(folder.path() / "ranking.csv").words("no_checks"), ::testing::ElementsAre("1", "0"));
+  EXPECT_THAT(ranking_latex(analysis), AllOf(HasSubstr("1 & $-$0.5 & 0 & -- & no checks"), HasSubstr("1 of 1")));
+}
+
+TEST(SweepTables, WriteIndicesWithAMinusAndWithoutANegativeZero) {
+  SweepAnalysis analysis{.points = {.paths = {"gain"}}, .column = "passed"};
+  const auto effects = nlohmann::ordered_json::parse(
+      R"({"method": "sobol", "columns": {"passed": [[-0.03, -0.001, 0.2, 1, 0.9, 1.1]]}})");
+  EXPECT_THAT(indices_latex(analysis, effects), HasSubstr("& $-$0.03 & 0.00 to 0.20 & 1.00 & 0.90 to 1.10"));
+}
+
+TEST(SweepFigures, DrawParametersOfALogarithmicRangeOnALogarithmicAxis) {
+  const FigureAxis axis = FigureAxis::of_logarithms("gain", {1.0, 0.01, 0.1, 1.0});
+  ASSERT_EQ(axis.ticks.size(), 3u);
+  EXPECT_EQ(axis.ticks[0].words, "0.01");
+  EXPECT_NEAR(axis.ticks[1].value, -1.0, 1e-12);
+  EXPECT_GT(axis.high, 0.0);
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(4);
+  for (FlightRecord& record : records) record.result.emplace().flight.outcome = Outcome::reached;
+  write_points(folder.path(), records, {0.001, 0.01, 0.1, 1.0});
+  const auto drawn = [&] {
+    write_sweep_figures(folder.path(), folder.path() / "figures", "flight_time_s");
+    return read_file_whole(folder.path() / "figures/main_effects.svg");
+  };
+  const std::string linear = drawn();
+  write_file_whole(folder.path() / "sweep.json", R"({"parameters": [{"path": "avoidance.gain", "log": true}]})");
+  EXPECT_THAT(drawn(), AllOf(HasSubstr(">0.001<"), ::testing::Ne(linear)));
+  EXPECT_THAT(linear, ::testing::Not(HasSubstr(">0.001<")));
 }
 
 TEST(SweepAnalysis, RanksPassedPointsByTheMeanWithStudentsInterval) {
@@ -173,79 +260,6 @@ TEST(SweepFigures, AreTablesAndDrawingsThatOtherProgramsRead) {
   EXPECT_EQ(misspelled.out, "");
   EXPECT_THAT(folder.hedgehop("report . --figures --column no_collision").err,
               HasSubstr("no column 'no_collision'; did you mean 'check.no_collision'?"));
-}
-
-TEST(RunsPage, ListsAllResultsOfAFolderTreeSorted) {
-  HEDGEHOP_NEEDS_BROWSER();
-  const CampaignFolder folder;
-  const std::string quick = " --no-video --no-report --renderer tiles ";
-  const std::string words = " --set 'tags=[wind, first]' --set 'notes=gain < 2'";
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 3 --out all/b/run" + quick + words).status, 1);
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --seed 1 --out all/a" + quick).status, 1);
-  ASSERT_LE(folder.hedgehop("batch tiny.yaml --seeds 5 --out all/batch").status, 1);
-  std::filesystem::create_directories(folder.path() / "all/search");
-  write_file_whole(folder.path() / "all/search/falsify.csv", folder.read("all/batch/batch.csv"));
-  ASSERT_EQ(folder.hedgehop("runs all").status, 0);
-  const PageVisit page = visit(folder.path() / "all/index.html", R"js(
-    const rows = () => [...document.querySelectorAll('#runs tbody tr')].map((tr) => tr.children[3].textContent);
-    document.querySelector('#runs th[data-column="seed"]').click();
-    const search = [...document.querySelectorAll('#campaigns tbody tr')].find((tr) => tr.children[1].textContent === 'search');
-    const seen = {search: search.children[5].textContent, rising: rows(), campaigns: document.querySelectorAll('#campaigns tbody tr').length,
-                  module: document.querySelector('#runs tbody tr').children[2].textContent};
-    document.querySelector('#inside input').click();
-    seen.all = rows();
-    document.getElementById('filter').value = 'b/run';
-    document.getElementById('filter').dispatchEvent(new Event('input'));
-    seen.filtered = rows();
-    seen.text = document.querySelector('#runs tbody tr').textContent;
-    return seen;)js");
-  EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_THAT(page.requests, IsEmpty());
-  EXPECT_THAT(page.value.at("text").get<std::string>(), AllOf(HasSubstr("wind"), HasSubstr("gain < 2")));
-  EXPECT_EQ(page.value.at("rising"), (std::vector<std::string>{"1", "3"}));
-  EXPECT_EQ(page.value.at("all"), (std::vector<std::string>{"1", "3", "5"}));
-  EXPECT_EQ(page.value.at("filtered"), (std::vector<std::string>{"3"}));
-  EXPECT_EQ(page.value.at("campaigns"), 2);
-  EXPECT_THAT(page.value.at("search").get<std::string>(), ::testing::StartsWith("20")) << "the year of its date";
-  EXPECT_EQ(page.value.at("module"), "go_to_goal");
-  EXPECT_EQ(folder.hedgehop("runs configs").status, 2);
-}
-
-TEST(RunAgainst, ShowsBothFilmsWithTheControlsBelow) {
-  HEDGEHOP_NEEDS_BROWSER();
-  const CampaignFolder folder;
-  const std::string quick = " --no-report --renderer tiles ";
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --out a" + quick).status, 1);
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --out b" + quick).status, 1);
-  if (!std::filesystem::exists(folder.path() / "a/video.webm")) GTEST_SKIP() << "this build writes no films";
-  ASSERT_EQ(folder.hedgehop("report b --against a").status, 0);
-  const PageVisit page = visit(folder.path() / "b/report.html", R"js(
-    const films = [...document.querySelectorAll('#against video')];
-    return [films.length, films.filter((film) => film.controls).length, document.querySelectorAll('#against .film-bar').length];)js");
-  EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_EQ(page.value, nlohmann::json::array({2, 0, 2}));
-}
-
-TEST(RunAgainst, NamesTheFirstDifferenceAndTheSettings) {
-  HEDGEHOP_NEEDS_BROWSER();
-  const CampaignFolder folder;
-  const std::string quick = " --no-video --no-report --renderer tiles --set duration=1 ";
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --out a" + quick).status, 1);
-  ASSERT_LE(folder.hedgehop("run tiny.yaml --out b --set avoidance.speed=1" + quick).status, 1);
-  ASSERT_EQ(folder.hedgehop("report b --against a").status, 0);
-  const PageVisit page = visit(folder.path() / "b/report.html", R"js(
-    const host = document.getElementById('against');
-    return {lines: [...host.querySelectorAll('.first-difference')].map((p) => p.textContent), text: host.textContent,
-            plots: host.querySelectorAll('.u-wrap').length};)js");
-  EXPECT_THAT(page.errors, IsEmpty());
-  ASSERT_FALSE(page.value.at("lines").empty());
-  EXPECT_THAT(
-      page.value.at("lines")[0].get<std::string>(),
-      ::testing::MatchesRegex("First decision that differs at 0.0[0-9]* s: column [a-z_]+ is [-0-9.]{1,7} here, .*"));
-  EXPECT_THAT(page.value.at("text").get<std::string>(), HasSubstr("avoidance.speed"));
-  EXPECT_GT(page.value.at("plots"), 2);
-  ASSERT_EQ(folder.hedgehop("report a --against a").status, 0);
-  EXPECT_THAT(folder.read("a/report.html"), HasSubstr("The trajectories are equal, bit for bit."));
 }
 
 }  // namespace

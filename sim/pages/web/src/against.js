@@ -18,7 +18,8 @@ class AgainstView {
     const fresh = table.count - both.length;
     host.append(make('p', 'soft', `${countOf(both.length, 'flight')} in both, ${this.changed.length} with a different outcome; ` +
       `${fresh} only in this campaign, ${against.gone.length} only in the other.`));
-    this.fillGroups(host.appendChild(make('div', 'scroll tall')), against.groups);
+    if (against.no_change) host.append(make('p', 'soft', against.no_change));
+    this.fillGroups(host.appendChild(make('div', 'scroll tall')), against);
     const pair = host.appendChild(make('div', 'pair halves'));
     this.fillChanged(pair.appendChild(make('div')));
     this.both = both.filter((row) => this.clearance(row) !== null && this.before[row].clearance_m !== null);
@@ -34,13 +35,14 @@ class AgainstView {
   }
   clearance(row) { return this.table.value('min_obstacle_clearance_m', row); }
 
-  fillGroups(host, groups) {
+  fillGroups(host, {groups, no_change}) {
     const element = host.appendChild(make('table'));
     addRow(element, [['scenario', ''], ['passed before', 'number'], ['passed now', 'number'],
       ['change of the success rate', 'number'], ['95 % interval', 'number']], 'th');
     const percent = (v) => fixed(100 * v, 1) + ' %';
+    const rate = ({passed, ended, low, high}) => `${passed} of ${ended}` + (no_change && ended ? `, ${percent(low)} to ${percent(high)}` : '');
     for (const {group, now, before, change} of groups) {
-      addRow(element, [[group, ''], [`${before.passed} of ${before.ended}`, 'number'], [`${now.passed} of ${now.ended}`, 'number'],
+      addRow(element, [[group, ''], [rate(before), 'number'], [rate(now), 'number'],
         [change ? percent(change[0]) : '–', 'number'], [change ? `${percent(change[1])} to ${percent(change[2])}` : '–', 'number']]);
     }
   }

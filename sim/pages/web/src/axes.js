@@ -3,10 +3,12 @@
 
 const axesMargin = {left: 62, right: 14, top: 12, bottom: 44};
 
-/** An axis of numbers. If `whole` is set in the result, only whole numbers have ticks. */
+/** An axis of numbers. Its range is wide enough for ticks that differ. If `whole` is set in the result, only whole numbers have ticks. */
 function numberAxis(label, values) {
   let [low, high] = finiteRange(values);
-  if (low === high) [low, high] = [low - 0.5, high + 0.5];
+  const middle = low / 2 + high / 2, least = 1e-9 * Math.max(1, Math.abs(middle));
+  const half = low === high ? Math.max(0.5, least) : high - low < least ? least / 2 : 0;
+  if (half) [low, high] = [middle - half, middle + half];
   const pad = 0.04 * (high - low);
   return {label, low: low - pad, high: high + pad, ticks: null};
 }

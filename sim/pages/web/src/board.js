@@ -32,6 +32,11 @@ function groupedBy(items, keyOf) {
   return [...groups];
 }
 
+/** "1 collided". The number of flights without a fault follows if it is not that of the flights with checks, then the number of faults. */
+function collidedWords({collided, flown, flights, broken}) {
+  return `${collided}${flown === flights ? '' : ` of ${flown}`} collided` + (broken ? `, ${broken} with a fault or no result` : '');
+}
+
 function boardCell(cell, on) {
   const element = make('td', 'cell');
   if (cell.passed === undefined) {
@@ -42,25 +47,27 @@ function boardCell(cell, on) {
   }
   element.style.setProperty('--share', 100 * cell.passed / cell.flights + '%');
   element.append(make('b', '', `${cell.passed} of ${cell.flights}`), make('span', 'soft', ` ${fixed(cell.low, 2)} to ${fixed(cell.high, 2)}`));
-  const words = [`${cell.collided} collided`];
+  const words = [collidedWords(cell)];
   if (cell.median_clearance_m !== null) words.push(`${fixed(cell.median_clearance_m, 2)} m`);
   if (cell.path_excess !== null) words.push(`${cell.path_excess < 0 ? '' : '+'}${fixed(100 * cell.path_excess, 0)} %`);
   words.push(`${fixed(cell.mean_speed_mps, 1)} m/s`, measured(cell.decision_ms, 'ms', 2));
   element.append(make('div', 'soft', words.join(', ')));
   element.title = 'show only these flights';
-  onChoose(element, () => on.filter(`${cell.world}_${cell.module}/`));
+  onChoose(element, () => on.filter(/\s/.test(cell.group) ? `group="${cell.group}"` : `group=${cell.group}`));
   return element;
 }
 
 /** Film strips of the flights that have one, with links to more of each. */
 function fillStrips(host, data, table, on) {
-  if (!data.strips.length) {
+  const {images, omitted} = data.strips;
+  if (!images.length && !omitted) {
     host.remove();
     return;
   }
   host.append(make('h2', '', 'Film strips of the worst flights'),
     make('p', 'soft', 'Camera images with the overlays of the modules before the collision or the closest approach, from a re-simulation.'));
-  for (const [row, jpeg] of data.strips) {
+  if (omitted) host.append(make('p', 'soft', `${countOf(omitted, 'film strip')} not shown, because the strips of a page are limited to 2.5 MB: strip.jpg in the folder of the flight.`));
+  for (const [row, jpeg] of images) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
     line.classList.add('long');
     line.append(flightButton(table, row, on), make('span', 'soft', table.why[row] || `passed, clearance ${meters(table.value('min_obstacle_clearance_m', row))}`),

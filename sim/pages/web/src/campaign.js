@@ -22,12 +22,20 @@ function addRow(table, cells, tag = 'td') {
 
 /** Returns the verdict on all flights: {words, more, look}. */
 function campaignVerdict(data, table) {
-  const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [];
+  const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [], verdicts = data.claims.conduct?.verdicts ?? [];
   const counts = table.failureCounts(table.rowsOf(null, data.controls)).map(([name, count]) => `${failureWords[name] ?? name.replaceAll('_', ' ')}: ${count}`).join(', ');
   const more = [counts, data.controls.length ? 'without the control' : ''].filter(Boolean).join('; ');
   if (claims.length) {
     const worst = ['refuted', 'undecided', 'shown'].find((verdict) => claims.some((claim) => claim.verdict === verdict));
     return {words: `${worst[0].toUpperCase()}${worst.slice(1)}`, more: [...new Set(claims.map(({rule}) => rule))].join('; '), look: {shown: 'good', refuted: 'bad'}[worst] ?? ''};
+  }
+  if (all.missing) {
+    return {words: `${all.missing} of ${countOf(all.flights, 'flight')} ${all.missing === 1 ? 'is' : 'are'} missing: no verdict`, more: `by collision or first failed check: ${more}`, look: ''};
+  }
+  if (verdicts.length) {
+    const failed = verdicts.filter(({passed}) => !passed).length, words = countOf(verdicts.length, 'check');
+    return {words: failed ? `${failed} of ${words} over the seeds failed` : `${words} over the seeds: passed`,
+      more: [`${all.passed} of ${countOf(all.flights, 'flight')} passed`, more].filter(Boolean).join('; '), look: failed ? 'bad' : 'good'};
   }
   if (all.no_checks === all.flights) return {words: 'No checks', more: 'no checks defined', look: ''};
   const failed = all.flights - all.passed - all.no_checks;
@@ -75,10 +83,11 @@ function completedCount(table, group) {
 function fillModuleTiles(tile, board) {
   const totals = board.modules.map((module) => ({...module, ...board.totals.find((total) => total.module === module.name)}));
   totals.sort((a, b) => a.control - b.control || (b.passed ?? 0) / (b.flights || 1) - (a.passed ?? 0) / (a.flights || 1));
-  for (const {name, control, passed, flights, collided, worlds, low, high} of totals) {
+  for (const total of totals) {
+    const {name, control, passed, flights, worlds, low, high} = total;
     const title = name + (control ? ' (control)' : '');
     if (!flights) tile(title, '–', 'no flight with checks');
-    else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collided} collided; ${countOf(worlds, 'world')}`);
+    else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collidedWords(total)}; ${countOf(worlds, 'world')}`);
   }
 }
 
@@ -168,7 +177,7 @@ function fillChosen(host, data, table, row) {
   addCommand(host, table.value('command', row));
   if (!data.report[row]) {
     host.append(make('p', 'soft', 'Write the replay of the recorded flight:'));
-    addCommand(host, `hedgehop report --replay '${data.folder}/${id}'`);
+    addCommand(host, `hedgehop report --replay ${shellQuoted(`${data.folder}/${id}`)}`);
   }
 }
 

@@ -59,6 +59,7 @@ function fillClaims(host, claims, without_control) {
     const className = claims.if_missing || found.verdict === 'undecided' ? '' : found.verdict === 'shown' ? 'pass' : 'bad-text';
     addFact(list, `${found.rule} (${found.group})`, found.words, className);
   }
+  for (const {check, group, words, passed} of conduct?.verdicts ?? []) addFact(list, `${check} (${group})`, words, passed ? 'pass' : 'bad-text');
   if (claims.no_collision) addFact(list, 'collisions', boundWithoutCollision(claims.no_collision));
   if (conduct?.limit_s) addFact(list, 'time limit', `Flights over ${conduct.limit_s} s of wall time failed, so the result depends on the speed of the machine.`);
   addFact(list, 'seeds', seedWords(conduct));

@@ -29,7 +29,7 @@ function drawMark(c, index, control, x, y) {
   }
 }
 
-/** Points of one plot: {module, index, control, flights, collided, collided_low, collided_high, mean_speed_mps}. */
+/** Points of one plot: {module, index, control, flown, broken, collided, collided_low, collided_high, mean_speed_mps}. */
 class CollisionPlot {
   constructor(host, title, points, speedAxis) {
     this.points = points;
@@ -51,14 +51,15 @@ class CollisionPlot {
       c.lineTo(x, axes.y(p.collided_high));
       c.stroke();
       c.globalAlpha = 1;
-      drawMark(c, p.index, p.control, x, axes.y(p.collided / p.flights));
+      drawMark(c, p.index, p.control, x, axes.y(p.collided / p.flown));
     }
   }
   lines(px, py) {
-    const distance = (p) => Math.hypot(this.axes.x(p.mean_speed_mps) - px, this.axes.y(p.collided / p.flights) - py);
+    const distance = (p) => Math.hypot(this.axes.x(p.mean_speed_mps) - px, this.axes.y(p.collided / p.flown) - py);
     const near = this.points.filter((p) => distance(p) < 12);
     if (!near.length) return null;
-    return near.flatMap((p) => [p.module, `${p.collided} of ${p.flights} collided, 95 % interval ${fixed(p.collided_low, 3)} to ${fixed(p.collided_high, 3)}`,
+    return near.flatMap((p) => [p.module, `${p.collided} of ${p.flown} collided, 95 % interval ${fixed(p.collided_low, 3)} to ${fixed(p.collided_high, 3)}`,
+      ...(p.broken ? [`not counted: ${p.broken} with a fault or no result`] : []),
       `median of the mean speeds ${fixed(p.mean_speed_mps, 2)} m/s`]);
   }
 }
@@ -71,9 +72,9 @@ function fillCollisions(host, board) {
   }
   const indexOf = new Map(board.modules.map((module, index) => [module.name, index]));
   const control = new Set(board.modules.filter((module) => module.control).map((module) => module.name));
-  const points = (cells) => cells.filter((cell) => cell.flights && cell.mean_speed_mps !== null).map((cell) =>
+  const points = (cells) => cells.filter((cell) => cell.flown && cell.mean_speed_mps !== null).map((cell) =>
     ({...cell, index: indexOf.get(cell.module), control: control.has(cell.module)}));
-  host.append(make('h2', '', 'Collisions against speed'), make('p', 'soft', 'Share of flights that end in a collision, with its 95 % interval, ' +
+  host.append(make('h2', '', 'Collisions against speed'), make('p', 'soft', 'Share of the flights without a fault that end in a collision, with its 95 % interval, ' +
     'over the median of the mean speeds. Low and to the right is better. A module that hovers has no collisions.'));
   const all = points(board.totals), axis = {...numberAxis('mean speed, m/s', [0, ...points(board.cells).map((p) => p.mean_speed_mps)]), low: 0};
   const grid = host.appendChild(make('div', 'collision-plots'));

@@ -70,13 +70,14 @@ function inkOn(color) {
   return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.214 ? '#1b2330' : '#ffffff';
 }
 
-/** Returns round numbers in [low, high], about `count` of them: {step, values}. */
+/** Returns round numbers in [low, high], about `count` of them and never many more: {step, values}. */
 function niceTicks(low, high, count) {
   const rough = (high - low) / Math.max(count, 1);
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find((s) => s * power >= rough);
+  const first = Math.ceil(low / step), steps = Math.min(Math.floor(high / step + 1e-9) - first, Math.ceil(Math.max(count, 1)));
   const values = [];
-  for (let i = Math.ceil(low / step); i * step <= high + 1e-9; ++i) values.push(i * step);
+  for (let k = 0; k <= steps; ++k) values.push((first + k) * step);  // first + k may equal first: the count ends the loop
   return {step, values};
 }
 
@@ -155,6 +156,16 @@ function wordsOf(name, unit) {
 /** Name and unit of a column. A name that ends in its unit needs no other. */
 function columnLabel({name, unit}) { return !unit || name.endsWith(unitSuffix(unit)) ? name : `${name}, ${unit}`; }
 
+/** Returns a word as a shell reads it back. */
+function shellQuoted(word) { return /^[\w\-+=.,/:@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`; }
+
+/** Shows a table whose headings sort it. A heading with the focus keeps it. */
+function replaceTable(host, element) {
+  const focused = host.contains(document.activeElement) ? document.activeElement.dataset.column : undefined;
+  host.replaceChildren(element);
+  if (focused !== undefined) [...element.querySelectorAll('th')].find((th) => th.dataset.column === focused)?.focus({preventScroll: true});
+}
+
 /** Sets the text alternative of a drawing. */
 function describeDrawing(element, text) {
   element.setAttribute('role', 'img');
@@ -175,6 +186,14 @@ function copyButton(text) {
 function addCommand(host, text) {
   const command = host.appendChild(make('div', 'command'));
   command.append(breakable('code', '', text), copyButton(text));
+}
+
+/** Returns the name of the object that a flight hit, as in its cause; without a cause, the closer of the nearest obstacle and the ground. */
+function hitWords({cause, closest_obstacle, closest_ground}) {
+  const named = cause?.match(/^hit (.+) at [\d.]+ s/)?.[1];
+  if (named) return named;
+  const is_ground = closest_ground && !(closest_obstacle?.distance_m <= closest_ground.distance_m);
+  return is_ground ? 'the ground' : closest_obstacle?.what || 'an obstacle';
 }
 
 /** Returns the failures of the scenario: {from_s, to_s, text} of result.failures, such as "20 s to 22 s: camera.front black". */

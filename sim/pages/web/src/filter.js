@@ -8,6 +8,12 @@ class FlightTable {
     this.count = this.columns.get('id').values.length;
     this.why = data.why.map(quoted);
     this.failed = data.failed;
+    // Seeds are texts in the data, because a number is exact up to 2^53 only. Plots use the numbers.
+    const seeds = this.columns.get('seed');
+    if (seeds && !seeds.is_text) {
+      seeds.exact = seeds.values.map((text) => text === '' ? null : BigInt(text));
+      seeds.values = seeds.values.map((text) => text === '' ? null : Number(text));
+    }
     const outcomes = this.columns.get('outcome'), goals = this.columns.get('goal_distance_m');
     // A timeout without a goal is the normal end of a flight.
     const completed = (row) => outcomes.values[row] === 'timeout' && (goals?.values[row] ?? null) === null;
@@ -26,6 +32,8 @@ class FlightTable {
     const groupOf = (row) => this.value('group', row) ?? '';
     return Array.from({length: this.count}, (_, row) => row).filter((row) => group === null ? !without.includes(groupOf(row)) : groupOf(row) === group);
   }
+  /** The seed of a flight as a text. */
+  seed(row) { return String(this.columns.get('seed')?.exact?.[row] ?? this.value('seed', row) ?? '–'); }
   value(name, row) { return this.columns.get(name)?.values[row] ?? null; }
   /** 'passed', 'collided', 'failed' (another check), 'unchecked' (no checks) or 'missing'. */
   verdict(row) {
@@ -44,10 +52,10 @@ function findColumn(table, word) {
   return [...table.columns.values()].find(({name}) => name.endsWith('.' + word)) ?? null;
 }
 
-/** Reads a filter: words that must occur, and comparisons such as seed=3 or flight_time_s>20. {terms, fault}. */
+/** Reads a filter: words that must occur, and comparisons such as seed=3, flight_time_s>20 or group="a b". {terms, fault}. */
 function parseFilter(table, text) {
   const terms = [];
-  for (const word of text.trim().split(/\s+/).filter(Boolean)) {
+  for (const word of (text.match(/(?:"[^"]*"|[^\s"])+/g) ?? []).map((part) => part.replaceAll('"', '')).filter(Boolean)) {
     const parts = word.match(/^([\w.]+)(<=|>=|!=|=|<|>)(.+)$/);
     if (!parts) {
       terms.push({word: word.toLowerCase()});
@@ -55,8 +63,8 @@ function parseFilter(table, text) {
     }
     const [, name, relation, value] = parts, column = findColumn(table, name);
     if (!column) return {terms: [], fault: `no column '${name}'`};
-    const number = Number(value);
-    if (relation !== '=' && relation !== '!=' && (column.is_text || isNaN(number))) {
+    const number = column.exact && /^\d+$/.test(value) ? BigInt(value) : Number(value);
+    if (relation !== '=' && relation !== '!=' && (column.is_text || Number.isNaN(number))) {
       return {terms: [], fault: `'${word}': ${column.is_text ? name : value} is not a number`};
     }
     terms.push({column, relation, value, number});
@@ -65,8 +73,8 @@ function parseFilter(table, text) {
 }
 
 function holds({column, relation, value, number}, row) {
-  const found = column.values[row];
-  const same = column.is_text ? String(found).toLowerCase() === value.toLowerCase() : found === number;
+  const found = column.exact?.[row] ?? column.values[row];
+  const same = column.is_text ? String(found).toLowerCase() === value.toLowerCase() : found == number;  // of BigInt and number, too
   switch (relation) {
     case '=': return same;
     case '!=': return !same;
@@ -90,7 +98,7 @@ function filteredRows(table, terms) {
 
 /** Rows by a column, equal ones in their order, rows without a value last in both orders. */
 function sortedRows(rows, column, falling) {
-  const value = (row) => column.values[row] === '' ? null : column.values[row];
+  const values = column.exact ?? column.values, value = (row) => values[row] === '' ? null : values[row];
   return [...rows].sort((a, b) => {
     const u = value(a), v = value(b);
     if (u === null || v === null) return (u === null) - (v === null) || a - b;

@@ -54,7 +54,7 @@ class FlightsView {
     head.append(make('th', '', 're-run'));
     const body = element.appendChild(make('tbody'));
     for (const row of sorted.slice(0, this.most)) body.append(this.line(row, columns));
-    this.host.replaceChildren(element);
+    replaceTable(this.host, element);
     if (sorted.length > this.most) {
       const more = this.host.appendChild(make('button', 'more', `show ${Math.min(400, sorted.length - this.most)} more of ${sorted.length}`));
       more.addEventListener('click', () => { this.most += 400; this.draw(); });
@@ -73,6 +73,7 @@ class FlightsView {
     const value = column.values[row];
     if (column.name === 'passed' && value === null) return make('td', 'soft', this.table.why[row] === 'no checks' ? 'no checks' : '–');
     if (column.name === 'passed') return make('td', value ? 'pass' : 'fail', value ? '✓' : '✕');
+    if (column.exact) return make('td', 'number', String(column.exact[row] ?? '–'));
     if (!column.is_text) {
       const small = value && Math.abs(value) < 0.01 && ['s', 'ms'].includes(column.unit);
       return make('td', 'number', small ? measured(value, column.unit) : Number.isInteger(value) ? String(value).replace('-', '−') : short(value));

@@ -1,6 +1,7 @@
 'use strict';
 // Plan view of a scene to scale: north up, east right, meters. Other files draw the flights.
 
+const narrowestView = 0.01;  // m
 const mapMargin = {left: 56, right: 12, top: 12, bottom: 34};
 
 function placeText(north, east) {
@@ -61,8 +62,8 @@ class MapView {
   zoom(factor) {
     const {n, e, width, height} = this.view;
     const clamp = Math.max(factor, height / this.whole.height, width / this.whole.width);
-    const f = factor < 1 ? Math.min(1, clamp) : factor;
-    this.show(f === 1 ? {...this.whole} : {n, e, width: width / f, height: height / f});
+    const f = factor < 1 ? Math.min(1, clamp) : Math.max(1, Math.min(factor, Math.min(width, height) / narrowestView));
+    this.show(f === 1 && factor < 1 ? {...this.whole} : {n, e, width: width / f, height: height / f});
   }
   showReach() { this.show(MapView.viewOf(this.reach.n, this.reach.e, 0.08)); }
 
@@ -284,7 +285,7 @@ class MapView {
   }
 
   solidAt(n, e) {
-    return this.plan.footprints.find(({corners, level}) => level !== 'above' && corners.every(([n0, e0], i) => {
+    return this.plan.footprints.find(({corners, level}) => level !== 'above' && corners.length > 2 && corners.every(([n0, e0], i) => {
       const [n1, e1] = corners[(i + 1) % corners.length];
       const [n2, e2] = corners[(i + 2) % corners.length];
       const side = (pn, pe) => (n1 - n0) * (pe - e0) - (e1 - e0) * (pn - n0);

@@ -8,12 +8,12 @@ class ParetoView {
       .find((name) => name !== choice.column && points.varies(name)) ?? points.columns[0].name;
     const controls = host.appendChild(make('div', 'controls'));
     this.x = columnSelect(controls, 'across', points.columns, second, () => {
-      this.xBest.value = moreIsBetter.test(this.x.value) ? 'more' : 'less';
+      this.xBest.value = points.better(this.x.value);
       this.update();
     });
     this.xBest = controls.appendChild(make('select'));
     for (const word of ['less', 'more']) this.xBest.appendChild(make('option', '', word + ' is better')).value = word;
-    this.xBest.value = moreIsBetter.test(second) ? 'more' : 'less';
+    this.xBest.value = points.better(second);
     this.xBest.addEventListener('change', () => this.update());
     this.axes = new Axes(host.appendChild(make('div')), 340, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
@@ -34,13 +34,13 @@ class ParetoView {
     const {points, choice} = this, x = this.x.value, y = choice.column;
     Object.assign(this, {xs: points.of(x), ys: points.of(y)});
     this.drawn = [...points.points.keys()].filter((i) => this.xs[i].mean !== null && this.ys[i].mean !== null);
-    const passing = this.drawn.filter((i) => points.points[i].passed === points.points[i].rows.length);
+    const passing = this.drawn.filter((i) => noneFailed(points.points[i]));
     const rivals = choice.passedFirst && passing.length && y !== 'passed' ? passing : this.drawn;
     this.front = paretoRows(rivals, this.xs.map(({mean}) => mean), this.ys.map(({mean}) => mean), this.xBest.value === 'less', choice.less);
     this.axes.set(numberAxis('mean of ' + points.label(x), this.drawn.map((i) => this.xs[i].mean)),
       numberAxis('mean of ' + points.label(y), this.drawn.map((i) => this.ys[i].mean)));
     this.key.replaceChildren(make('span', '', `ringed: the Pareto front, ${this.front.length} of ${points.points.length} points` +
-      (rivals === passing ? '; only points whose flights all passed are on it' : '')));
+      (rivals === passing ? '; only points without failed flights are on it' : '')));
     const element = make('table', 'ranking');
     addRow(element.appendChild(make('thead')), [...points.headings().map((name) => [name, 'number']), [points.label(x), 'number'], [points.label(y), 'number']], 'th');
     const body = element.appendChild(make('tbody'));
@@ -65,7 +65,7 @@ class ParetoView {
     c.setLineDash([]);
     c.globalAlpha = this.drawn.length > 300 ? 0.6 : 0.9;
     for (const i of this.drawn) {
-      c.fillStyle = themeColor(points.points[i].passed === points.points[i].rows.length ? 'c0' : 'bad');
+      c.fillStyle = themeColor(noneFailed(points.points[i]) ? 'c0' : 'bad');
       dot(i, 3.5);
       c.fill();
     }
@@ -93,7 +93,6 @@ class ParetoView {
 }
 /** Lines of a tip: the point's values, and the means of some columns. */
 function pointLines(points, i, names) {
-  const {passed, rows} = points.points[i];
-  return [`${passed} of ${countOf(rows.length, 'flight')} passed`, ...points.paths.map((path, k) => `${path} = ${valueWords(points.points[i].values[k])}`),
+  return [passedWords(points.points[i], 'flight'), ...points.paths.map((path, k) => `${path} = ${valueWords(points.points[i].values[k])}`),
     ...new Set(names.map((name) => `${name}: ${meanWords(points.of(name)[i], points.unit(name))}`))];
 }

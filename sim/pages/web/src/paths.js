@@ -54,7 +54,7 @@ class PathsView {
     const counts = this.counts(this.shown);
     this.numbers.forEach((number, i) => {
       const count = counts.get(number) ?? 0, first = this.mapOf.indexOf(number);
-      const name = `${groupWords(this.table.value('group', first))}, seed ${this.table.value('seed', first)}`;
+      const name = `${groupWords(this.table.value('group', first))}, seed ${this.table.seed(first)}`;
       this.select.options[i].textContent =
         `${number < 0 ? 'other scenes, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count === 1 ? name : count + ' flights'}`;
     });

@@ -1,8 +1,6 @@
 'use strict';
 // The points of a sweep: means of a column over the seeds, their intervals, and the ranking.
 
-const moreIsBetter = /clearance|passed|success|progress|goal_velocity|precision|found|share/;
-
 /** The points of a sweep in the order of their first flight. */
 class SweepPoints {
   constructor(data, table) {
@@ -18,7 +16,8 @@ class SweepPoints {
       byNumber.get(number).rows.push(row);
     }
     for (const point of this.points) {
-      point.passed = point.rows.filter((row) => ['passed', 'unchecked'].includes(table.verdict(row))).length;
+      const count = (verdict) => point.rows.filter((row) => table.verdict(row) === verdict).length;
+      Object.assign(point, {passed: count('passed'), unchecked: count('unchecked')});
     }
     const names = [...table.columns.keys()], first = names.indexOf('status');
     this.columns = names.slice(first).map((name) => table.columns.get(name))
@@ -47,12 +46,14 @@ class SweepPoints {
   label(name) { return columnLabel(this.table.columns.get(name)); }
   unit(name) { return this.table.columns.get(name).unit; }
   has(name) { return this.columns.some((column) => column.name === name); }
-  varies(name) { return this.has(name) && new Set(this.of(name).map(({mean}) => mean)).size > 1; }
+  varies(name) { return this.has(name) && new Set(this.of(name).map(({mean}) => mean).filter((mean) => mean !== null)).size > 1; }
+  /** 'more' or 'less', as it is better. */
+  better(name) { return this.sweep.more_is_better.includes(name) ? 'more' : 'less'; }
 
-  /** Indices of the points, the best first: points whose flights all passed, then the mean, then the clearance. */
+  /** Indices of the points, the best first: points without failed flights, then the mean, then the clearance. */
   ranking({column, less, passedFirst}) {
     const figures = this.of(column), clearance = this.has('min_obstacle_clearance_m') ? this.of('min_obstacle_clearance_m') : null;
-    const failing = ({passed, rows}) => passedFirst && passed < rows.length ? 1 : 0;
+    const failing = (point) => passedFirst && !noneFailed(point) ? 1 : 0;
     const cost = (i) => figures[i].mean === null ? Infinity : less ? figures[i].mean : -figures[i].mean;
     const close = (i) => clearance?.[i].mean ?? 0;
     return [...this.points.keys()].sort((a, b) => failing(this.points[a]) - failing(this.points[b]) ||
@@ -69,9 +70,16 @@ class SweepPoints {
   command(i) {
     const {rows} = this.points[i], command = this.table.value('command', rows[0]);
     if (rows.length === 1) return command;
-    const seeds = seedList(rows.map((row) => this.table.value('seed', row)));
+    const seeds = seedList(rows.map((row) => this.table.seed(row)));
     return command.replace(/^hedgehop run /, 'hedgehop batch ').replace(/ --seed \S+/, ` --seeds ${seeds}`);
   }
+}
+/** Whether no flight of a point failed. Flights without checks count as passed for the order only. */
+function noneFailed({passed, unchecked, rows}) { return passed + unchecked === rows.length; }
+/** "2 of 3", with the noun "2 of 3 flights passed", and the number of flights without checks; or "no checks". */
+function passedWords({passed, unchecked, rows}, noun = '') {
+  if (unchecked === rows.length) return 'no checks';
+  return `${passed} of ${noun ? countOf(rows.length, noun) + ' passed' : rows.length}` + (unchecked ? `; no checks: ${unchecked}` : '');
 }
 /** The 95 % score interval of a rate, [Wilson1927] p. 212. */
 function wilsonInterval(rate, n) {
@@ -83,10 +91,10 @@ function valueWords(value, figures = 4) { return typeof value === 'number' ? sho
 
 /** Seeds as the command line takes them: "1:3,7". */
 function seedList(seeds) {
-  const sorted = [...seeds].map(Number).sort((a, b) => a - b), parts = [];
+  const sorted = seeds.map(BigInt).sort((a, b) => a < b ? -1 : a > b ? 1 : 0), parts = [];
   for (let i = 0; i < sorted.length;) {
     let last = i;
-    while (sorted[last + 1] === sorted[last] + 1) ++last;
+    while (sorted[last + 1] === sorted[last] + 1n) ++last;
     parts.push(last > i ? `${sorted[i]}:${sorted[last]}` : String(sorted[i]));
     i = last + 1;
   }

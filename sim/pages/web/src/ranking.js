@@ -14,12 +14,12 @@ class RankingView {
     head.append(make('h2', '', 'Best point'));
     const controls = head.appendChild(make('div', 'controls'));
     this.column = columnSelect(controls, 'column', points.columns, column, () => {
-      this.better.value = moreIsBetter.test(this.column.value) ? 'more' : 'less';
+      this.better.value = points.better(this.column.value);
       this.change();
     });
     this.better = controls.appendChild(make('select'));
     for (const word of ['less', 'more']) this.better.appendChild(make('option', '', word + ' is better')).value = word;
-    this.better.value = optimized || !moreIsBetter.test(column) ? 'less' : 'more';
+    this.better.value = points.better(column);
     this.better.addEventListener('change', () => this.change());
     const label = controls.appendChild(make('label'));
     this.passedFirst = label.appendChild(make('input'));
@@ -45,10 +45,10 @@ class RankingView {
   draw() {
     const {points, choice} = this;
     this.order = points.ranking(choice);
-    const best = this.best, {passed, rows} = points.points[best];
+    const best = this.best, point = points.points[best];
     this.answer.replaceChildren(make('p', 'best', points.words(best)),
       make('p', 'soft', `mean of ${choice.column} ${meanWords(points.of(choice.column)[best], points.unit(choice.column))} over ` +
-        `${countOf(rows.length, 'seed')}; ${passed} of ${countOf(rows.length, 'flight')} passed; best of ${countOf(points.points.length, 'point')}. It is flown by`));
+        `${countOf(point.rows.length, 'seed')}; ${passedWords(point, 'flight')}; best of ${countOf(points.points.length, 'point')}. It is flown by`));
     addCommand(this.answer, points.command(best));
     this.drawList();
   }
@@ -61,10 +61,10 @@ class RankingView {
     const [least, most] = finiteRange(figures.flatMap(({mean, low, high}) => [mean, low, high]));
     const share = (v) => 100 * (v - least) / (most - least || 1) + '%';
     order.slice(0, this.most).forEach((i, rank) => {
-      const {mean, low, high} = figures[i], {passed, rows, values} = points.points[i];
+      const {mean, low, high} = figures[i], point = points.points[i], {values} = point;
       const line = addRow(body, [[String(rank + 1), 'number'], ...values.map((value) => [valueWords(value), 'number']), [short(mean), 'number'],
         [low === null ? '–' : `${short(low)} to ${short(high)}`, 'number'], ['', ''],
-        [`${passed} of ${rows.length}`, passed === rows.length ? 'number' : 'number bad-text']]);
+        [passedWords(point), noneFailed(point) ? 'number' : 'number bad-text']]);
       line.dataset.point = i;
       line.className = i === this.chosen ? 'chosen' : '';
       onChoose(line, () => this.on.choosePoint(i));

@@ -177,7 +177,7 @@ function fillControls() {
   element('show-solids').addEventListener('change', () => showSolids(element('show-solids').checked));
   showSolids(!has_surfaces);
   addEventListener('keydown', (event) => {
-    if (event.code !== 'Space' || event.target.tagName === 'BUTTON') return;
+    if (event.code !== 'Space' || event.target.closest?.('button, input, select, a')) return;
     event.preventDefault();
     element('play').click();
   });
@@ -213,7 +213,7 @@ function startLive() {
     paused: (paused) => { element('play').textContent = paused ? 'play' : 'pause'; },
     ended: (final) => {
       Object.assign(data, {live: false});
-      result = final;
+      result = {...final, seed: result.seed};  // as a text, which is exact
       state.live = false;
       for (const id of ['step', 'live']) element(id).hidden = true;
       element('speed').parentElement.hidden = false;

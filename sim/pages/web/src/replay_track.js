@@ -11,7 +11,7 @@ export function eventsOf(result, end_s) {
   if (closest && result.outcome !== 'collided') {
     events.push({t_s: closest.t_s, text: `closest: ${closest.what || 'obstacle'}, ${meters(closest.distance_m)}`});
   }
-  const ends = {collided: `hit ${closest?.what || 'an obstacle'}`, reached: 'goal reached'};
+  const ends = {collided: `hit ${hitWords(result)}`, reached: 'goal reached'};
   if (end_s > 0) events.push({t_s: end_s, text: ends[result.outcome] ?? outcomeWords(result), bad: ['collided', 'fault', 'link_lost'].includes(result.outcome)});
   for (const {from_s, to_s, text} of failuresOf(result, end_s)) events.push({t_s: from_s, to_s, text, bad: true});
   return events;

@@ -2,18 +2,18 @@
 // Builds the report of a run from its data: verdict, checks, plan, video, plots, details.
 
 /** Returns the text of an outcome, and whether the outcome is good without checks. */
-function judge(outcome, goal) {
+function judge({outcome, goal_distance_m}) {
   switch (outcome) {
     case 'reached': return {words: 'Reached the goal', good: true};
     case 'collided': return {words: 'Collided', good: false};
-    case 'timeout': return goal ? {words: 'Timeout before the goal', good: false} : {words: 'Completed', good: true};
+    case 'timeout': return goal_distance_m !== null ? {words: 'Timeout before the goal', good: false} : {words: 'Completed', good: true};
     case 'fault': return {words: 'Ended by a fault', good: false};
     case 'link_lost': return {words: 'Lost the autopilot', good: false};
     default: return {words: outcome, good: false};
   }
 }
 
-function fillVerdict(host, {result, description, plan, has_replay}) {
+function fillVerdict(host, {result, description, has_replay}) {
   const what = host.appendChild(make('div', 'what'));
   what.append(make('h1', '', result.scenario));
   if (description) what.append(make('p', '', description));
@@ -25,8 +25,8 @@ function fillVerdict(host, {result, description, plan, has_replay}) {
   }
 
   const failed = result.checks.filter((c) => !c.passed).length, all = result.checks.length;
-  const {words, good} = judge(result.outcome, plan.goal);
-  const bad = all ? failed > 0 : !good;  // if there are checks, they decide, as for the exit status
+  const {words, good} = judge(result), faulted = ['fault', 'link_lost'].includes(result.outcome);
+  const bad = faulted || (all ? failed > 0 : !good);  // without a fault, checks decide, as for the exit status
   const badge = host.appendChild(make('div', 'badge ' + (bad ? 'bad' : all ? 'good' : '')));
   badge.append(make('span', 'mark', bad ? '✕' : all ? '✓' : '–'));
   const lines = badge.appendChild(make('div'));
@@ -66,6 +66,14 @@ function addRow(table, cells, tag = 'td') {
 
 const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
 
+/** Returns the figures with which a value differs from its limit, so that no failure reads as "2.04 ≤ 2.04". */
+function checkFigures(value, limit, unit) {
+  const most = 17;  // these distinguish all numbers
+  let figures = 4;
+  if (value !== limit) while (figures < most && measured(value, unit, figures) === measured(limit, unit, figures)) ++figures;
+  return figures;
+}
+
 function fillChecks(host, {checks, closest_obstacle, closest_ground}) {
   if (!checks.length) {
     host.append(make('p', 'soft', 'The scenario defines no checks.'));
@@ -75,7 +83,7 @@ function fillChecks(host, {checks, closest_obstacle, closest_ground}) {
   const table = host.appendChild(make('table'));
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
   for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
-    const measure = (v) => measured(v, unit);
+    const measure = (v) => measured(v, unit, checkFigures(value, limit, unit));
     addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [wordsOf(name, unit), ''],
       [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);

@@ -61,14 +61,16 @@ function addRows(host, rows) {
   }
 }
 
+/** Returns the function that draws the chart; null for a chart without flights. */
 function addChart(host, chart) {
   const card = host.appendChild(make('section', 'chart card'));
   card.append(make('h3', '', chart.title), make('div', 'note', chart.note));
   const drawn = card.appendChild(make('div'));
   const empty = chart.paths ? !chart.paths.path.length : !chart.lines.some(({x}) => x.length);
   if (empty) drawn.append(make('p', 'missing', 'No flight was flown for this chart.'));
-  else if (chart.paths) new PathChart(drawn, chart.paths);
-  else new LineChart(drawn, chart);
+  else if (chart.paths) return new PathChart(drawn, chart.paths).view;
+  else return new LineChart(drawn, chart).axes;
+  return null;
 }
 
 function main() {
@@ -82,6 +84,7 @@ function main() {
     + (quick ? ' Quick run: few seeds were flown.' : '')));
   head.append(make('p', 'soft', 'Hedgehop\'s developers set the requirements; no paper states them. '
     + '"Published" is red if the paper\'s own law does not meet the requirement.'));
+  const drawings = [];
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
     const title = section.appendChild(make('div', 'charts-head'));
@@ -91,7 +94,8 @@ function main() {
     for (const deviation of paper.deviations) section.append(make('p', 'soft', `Deviation of the published law from the paper: ${deviation}`));
     const charts = section.appendChild(make('div', 'charts'));
     charts.style.marginTop = '16px';
-    for (const chart of paper.charts) addChart(charts, chart);
+    for (const chart of paper.charts) drawings.push(addChart(charts, chart));
   }
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { for (const drawing of drawings) drawing?.draw(); });
 }
 main();

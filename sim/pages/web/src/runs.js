@@ -5,7 +5,7 @@ const linkTo = (folder, name) => (folder === '.' ? '' : folder.split('/').map(en
 
 /** A table of objects, sorted by a click on a heading. */
 class SortedTable {
-  /** @param columns  {key, label, number, words(row), look(row)}; the first one links the report. */
+  /** @param columns  {key, label, number, order(row), words(row), look(row)}; the first one links the report. */
   constructor(host, columns, rows, key, falling) {
     Object.assign(this, {host, columns, rows, key, falling, most: 200});
     this.draw();
@@ -15,7 +15,7 @@ class SortedTable {
     this.draw();
   }
   draw() {
-    const value = (row) => row[this.key] ?? '';
+    const {order} = this.columns.find(({key}) => key === this.key), value = (row) => order ? order(row) : row[this.key] ?? '';
     const sorted = [...this.rows].sort((a, b) => {
       const u = value(a), v = value(b);
       if (u === '' || v === '') return (u === '') - (v === '');
@@ -46,7 +46,7 @@ class SortedTable {
         link.href = linkTo(row.folder, 'report.html');
       });
     }
-    this.host.replaceChildren(element);
+    replaceTable(this.host, element);
     if (sorted.length <= this.most) return;
     const more = this.host.appendChild(make('button', 'more', `show ${Math.min(1000, sorted.length - this.most)} more of ${sorted.length}`));
     more.addEventListener('click', () => { this.most += 1000; this.draw(); });
@@ -63,7 +63,7 @@ function main() {
     new SortedTable(host('campaigns'), [{key: 'folder', label: 'folder'}, {key: 'kind', label: 'kind'}, {key: 'flights', label: 'flights', number: true},
       {key: 'passed', label: 'passed', number: true}, {key: 'build', label: 'build'}, {key: 'date', label: 'date, UTC'}], data.campaigns, 'date', true);
   }
-  const columns = [{key: 'name', label: 'name'}, {key: 'folder', label: 'folder', look: () => 'folder'}, {key: 'module', label: 'module'}, {key: 'seed', label: 'seed', number: true},
+  const columns = [{key: 'name', label: 'name'}, {key: 'folder', label: 'folder', look: () => 'folder'}, {key: 'module', label: 'module'}, {key: 'seed', label: 'seed', number: true, order: (r) => BigInt(r.seed)},
     {key: 'outcome', label: 'outcome'}, {key: 'verdict', label: 'checks', look: verdictLook},
     {key: 'flight_time_s', label: 'time, s', number: true, words: (r) => fixed(r.flight_time_s, 1)},
     {key: 'min_obstacle_clearance_m', label: 'clearance, m', number: true, words: (r) => fixed(r.min_obstacle_clearance_m, 2)},

@@ -88,8 +88,9 @@ class SearchView {
     host.append(make('p', '', `${one.check}: robustness ${short(one.shrunk_robustness)}, before minimization ${short(one.robustness)}; ` +
       (one.items_before ? `${one.items} of ${one.items_before} boxes, moving obstacles and failures remain; ` : '') +
       `${short(one.duration_s)} s; ${countOf(one.shrinking_flights, 'flight')} for the minimization`));
-    const verdict = one.repeats && one.confirmed;
-    host.append(make('p', verdict ? 'pass' : 'fail', verdict ? 'confirmed: a repeated flight is equal' : 'NOT CONFIRMED: a repeated flight differs'));
+    const repeat = one.repeats ? one.confirmed : one.repeats;  // null: not flown
+    host.append(make('p', repeat ? 'pass' : 'fail', repeat ? 'confirmed: a repeated flight is equal'
+      : `NOT CONFIRMED: a repeated flight ${repeat === null ? 'was not flown' : 'differs'}`));
     const links = host.appendChild(make('p'));
     for (const [file, words] of [[one.file, 'scenario'], [`${one.folder}/report.html`, 'report and film']]) {
       const link = links.appendChild(make('a', '', words));

@@ -33,7 +33,7 @@ function storyLines({result, path}) {
   const end = path.t.length - 1, t_s = result.flight_time_s;
   const lines = [];
   if (result.outcome === 'collided') {
-    lines.push(`Hit ${result.closest_obstacle?.what || 'an obstacle'} at ${fixed(t_s, 1)} s, flying ${fixed(path.speed[end], 1)} m/s at ${fixed(path.altitude[end], 1)} m altitude.`);
+    lines.push(`Hit ${hitWords(result)} at ${fixed(t_s, 1)} s, flying ${fixed(path.speed[end], 1)} m/s at ${fixed(path.altitude[end], 1)} m altitude.`);
   } else if (['fault', 'link_lost'].includes(result.outcome)) {
     lines.push(`Ended by a fault at ${fixed(t_s, 1)} s: ${quoted(result.cause)}`);
   } else {
@@ -47,8 +47,9 @@ function storyLines({result, path}) {
     lines.push(since_s > 0 ? `Module status “${status}” for the last ${fixed(t_s - since_s, 1)} s.` : `Module status “${status}” during the whole flight.`);
   }
   const before = path.t.findIndex((t) => t >= t_s - BEFORE_S);
-  if (result.outcome === 'collided' && before > 0 && path.clearance[before] !== null) {
-    lines.push(`${BEFORE_S} s before: clearance ${fixed(path.clearance[before], 1)} m, speed ${fixed(path.speed[before], 1)} m/s.`);
+  const [clearance, of] = hitWords(result) === 'the ground' ? [path.ground_clearance, ' to the ground'] : [path.clearance, ''];
+  if (result.outcome === 'collided' && before > 0 && (clearance[before] ?? null) !== null) {
+    lines.push(`${BEFORE_S} s before: clearance${of} ${fixed(clearance[before], 1)} m, speed ${fixed(path.speed[before], 1)} m/s.`);
   }
   if (result.goal_distance_m !== null) lines.push(`Distance to the goal: ${fixed(result.goal_distance_m, 1)} m.`);
   return lines;

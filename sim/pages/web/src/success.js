@@ -5,14 +5,14 @@ const mostCategories = 16, numberBins = 8;
 
 /** Returns groups of the values of a column: {axis, words, of(row) -> index or -1}. */
 function columnBins(column, rows) {
-  const values = [...new Set(rows.map((row) => column.values[row]))].filter((v) => v !== null && v !== '');
+  const exact = column.exact ?? column.values, values = [...new Set(rows.map((row) => exact[row]))].filter((v) => v !== null && v !== '');
   if (column.is_text || values.length <= mostCategories) {
     values.sort((a, b) => a < b ? -1 : a > b ? 1 : 0);
     const index = new Map(values.map((v, i) => [v, i]));
-    const figures = column.is_text || figuresFor(values), words = values.map((v) => column.name === 'group' ? groupWords(v) : column.is_text ? v : short(v, figures));
-    return {axis: wordAxis(columnLabel(column), words), words, of: (row) => index.get(column.values[row]) ?? -1};
+    const is_word = column.is_text || column.exact, figures = is_word || figuresFor(values), words = values.map((v) => column.name === 'group' ? groupWords(v) : is_word ? String(v) : short(v, figures));
+    return {axis: wordAxis(columnLabel(column), words), words, of: (row) => index.get(exact[row]) ?? -1};
   }
-  const [low, high] = finiteRange(values), step = (high - low) / numberBins;
+  const [low, high] = finiteRange(values.map(Number)), step = (high - low) / numberBins;
   const ends = Array.from({length: numberBins + 1}, (_, i) => low + i * step), words = rangeWords(ends);
   const of = (row) => {
     const v = column.values[row];
