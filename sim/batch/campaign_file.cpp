@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sim/batch/input_files.h"
@@ -14,13 +13,14 @@
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
 #include "sim/config/utf8.h"
-#include "sim/config/whole_file.h"
 #include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kRefused = "/bad";  // end of the id of a file that cannot be flown; others end with their seed
 
 template <class Named>
 std::set<std::string> names_of(const std::vector<Named>& all, std::vector<std::string>& faults) {
@@ -76,7 +76,8 @@ class Gatherer {
       return;
     }
     const FolderFiles files = files_of(input, recursive);
-    if (files.yaml.empty())
+    batch_.faults.insert(batch_.faults.end(), files.faults.begin(), files.faults.end());
+    if (files.yaml.empty() && files.faults.empty())
       batch_.faults.push_back(fmt::format("{}: no *.yaml or *.yml in this folder", input.string()));
     for (const fs::path& file : files.yaml) add_file(file);
     if (std::string words = left_out_words(files, used_files()); !words.empty())
@@ -106,7 +107,7 @@ class Gatherer {
       }
     } catch (const InputError& error) {
       if (name.empty()) order.group = name_text(file.stem().string());
-      order.id = claim(order) + "/bad";
+      order.id = claim(order) + kRefused;
       refuse(order, error);
     }
     return order.group;
@@ -118,19 +119,6 @@ class Gatherer {
       add_scenario(folder / flights.scenario, seeds_.empty() ? parse_seeds(flights.seeds) : seeds_,
                    with_module_paths(flights.set, folder), "");
     }
-  }
-
-  /// Takes over the conduct of an earlier batch.json. @param conduct  empty if an earlier version wrote the file.
-  void recall(const fs::path& batch_json, const nlohmann::ordered_json& conduct) {
-    if (conduct.empty()) return;
-    if (!conduct.at("rule").is_null()) {
-      throw InputError(fmt::format("{}: flown until '{}' was decided; repeat that command with --resume",
-                                   batch_json.string(), conduct.at("rule").get<std::string>()));
-    }
-    if (const auto& tuned_on = conduct.at("tuned_on"); tuned_on.is_string())
-      batch_.tuned_on = tuned_on.get<std::string>();
-    if (const auto& plan = conduct.at("plan"); plan.is_object())
-      batch_.plan = raw_name(plan.at("file").get<std::string>());
   }
 
   BatchOrders take() { return std::move(batch_); }
@@ -166,7 +154,7 @@ class Gatherer {
       }
     } catch (const InputError& error) {
       Order order{.group = name_text(file.stem().string()), .scenario = file};
-      order.id = claim(order) + "/bad";
+      order.id = claim(order) + kRefused;
       refuse(order, error);
     }
   }
@@ -264,6 +252,8 @@ Leaderboard leaderboard_of(const LeaderboardConfig& config) {
   return board;
 }
 
+bool is_refused(const Order& order) { return order.id.ends_with(kRefused); }
+
 BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
                        const std::vector<std::string>& overrides, bool recursive) {
   Gatherer gatherer(seeds, overrides);
@@ -275,25 +265,6 @@ BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::ve
                       const std::vector<std::string>& overrides) {
   Gatherer gatherer(seeds, overrides);
   gatherer.add_flights(flights, {});
-  return gatherer.take();
-}
-
-BatchOrders reread_batch(const fs::path& batch_json) {
-  const std::vector<uint64_t> no_seeds;
-  const std::vector<std::string> no_overrides;
-  Gatherer gatherer(no_seeds, no_overrides);
-  try {
-    const nlohmann::ordered_json batch = read_batch_json(batch_json);
-    gatherer.recall(batch_json, batch.value("conduct", nlohmann::ordered_json::object()));
-    for (const auto& flight : batch.at("flights")) {
-      std::vector<std::string> overrides;
-      for (const auto& text : flight.at("set")) overrides.push_back(raw_name(text.get<std::string>()));
-      gatherer.add_scenario(raw_name(flight.at("scenario").get<std::string>()), {flight.at("seed").get<uint64_t>()},
-                            std::move(overrides), flight.at("group").get<std::string>());
-    }
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));
-  }
   return gatherer.take();
 }
 

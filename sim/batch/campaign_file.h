@@ -89,6 +89,7 @@ struct SuccessRateCheck {
       "minimum for the lower end of the Wilson interval of the success rate over the seeds of a scenario";
   double at_least = 0.0;  ///< 0..1
   double confidence = 0.95;
+  bool operator==(const SuccessRateCheck&) const = default;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<SuccessRateCheck> auto& c) {
@@ -105,11 +106,12 @@ struct NoWorseCheck {
   std::string than;  ///< batch.json of the earlier batch; relative to the campaign's file
   double confidence = 0.95;
   std::optional<double> margin;  ///< loss to be ruled out; without it, the check fails if a loss is shown
+  bool operator==(const NoWorseCheck&) const = default;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<NoWorseCheck> auto& c) {
   v("than", c.than, {.required = true, .meaning = "batch.json of the earlier batch, relative to this file"});
-  v("confidence", c.confidence, {.above = 0.0, .below = 1.0, .meaning = "confidence of the comparison"});
+  v("confidence", c.confidence, {.at_least = 0.5, .below = 1.0, .meaning = "confidence of the comparison"});
   v("margin", c.margin,
     {.above = 0.0,
      .at_most = 1.0,
@@ -181,8 +183,7 @@ BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const s
 BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,
                       const std::vector<std::string>& overrides);
 
-/// Returns the orders of an earlier batch from its batch.json. Scenario files are read again. Throws InputError that
-/// names the file if it is not a batch.json.
-BatchOrders reread_batch(const std::filesystem::path& batch_json);
+/// Returns whether an order stands for an invalid file, whose seeds are unknown.
+bool is_refused(const Order& order);
 
 }  // namespace hedgehop::sim

@@ -55,16 +55,11 @@ struct NamedFigure {
   FigureKind kind = FigureKind::judged;
 };
 
-/// Checks of one name get numbers from the second on: a scenario may check a thing twice.
 std::vector<NamedFigure> check_figures(const FlightResult& result) {
   std::vector<NamedFigure> figures;
-  for (const CheckResult& check : result.checks) {
-    const std::string base = "check." + check.name;
-    std::string name = base;
-    for (int i = 2; std::ranges::find(figures, name, &NamedFigure::column) != figures.end(); ++i) {
-      name = fmt::format("{}.{}", base, i);
-    }
-    figures.push_back({std::move(name), check.value, check.unit, FigureKind::judged});
+  std::vector<std::string> names = check_columns(result.checks);
+  for (size_t i = 0; i < names.size(); ++i) {
+    figures.push_back({std::move(names[i]), result.checks[i].value, result.checks[i].unit, FigureKind::judged});
   }
   return figures;
 }
@@ -142,7 +137,8 @@ class FlightColumns {
     Numbers numbers;
     for (const FlightRecord& record : records_) {
       const Verdict verdict = verdict_of(record);
-      numbers.push_back(verdict == Verdict::unchecked ? NAN : verdict == Verdict::passed ? 1.0 : 0.0);
+      const bool open = verdict == Verdict::unchecked || record.status == FlightRecord::Status::missing;
+      numbers.push_back(open ? NAN : verdict == Verdict::passed ? 1.0 : 0.0);
     }
     table_.add({.name = "passed", .values = std::move(numbers), .whole = true});
   }
@@ -245,6 +241,17 @@ Table flight_table(const std::vector<FlightRecord>& records, const std::vector<T
                         [stage = stage](const FlightResult& result) { return (result.*stage).p95_ms; });
   }
   return columns.take();
+}
+
+std::vector<std::string> check_columns(const std::vector<CheckResult>& checks) {
+  std::vector<std::string> names;
+  for (const CheckResult& check : checks) {
+    const std::string base = "check." + check.name;
+    std::string name = base;
+    for (int i = 2; std::ranges::find(names, name) != names.end(); ++i) name = fmt::format("{}.{}", base, i);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 std::optional<double> figure_of(const FlightResult& result, std::string_view column) {

@@ -14,8 +14,12 @@ namespace hedgehop::sim {
 /// Returns one row per record, in their order: the order, the outcome, the figures of the result, the metrics
 /// (`metric.NAME`), the values of the checks (`check.NAME`), the re-run command, and last the columns of
 /// FigureKind::wall_time with their metrics (`time.NAME`). Columns depend on the records alone, never on the order in
-/// which flights ended.
+/// which flights ended. `passed` is 1 or 0, and empty for flights without checks and flights that are missing.
 Table flight_table(const std::vector<FlightRecord>& records, const std::vector<Table::Column>& extra = {});
+
+/// Returns the column of each check. Checks of one name get numbers from the second on (`check.NAME.2`), because a
+/// scenario may check a thing twice.
+std::vector<std::string> check_columns(const std::vector<CheckResult>& checks);
 
 /// Returns a judged figure of a result by its column of flight_table(), or none for an unknown name. A clearance is
 /// infinite if no obstacle was within the search range.

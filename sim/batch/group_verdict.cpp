@@ -8,6 +8,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/fields/order_statistics.h"
+#include "sim/flight/words.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::sim {
@@ -31,9 +32,9 @@ Count earlier_count(const std::string& batch_json, const std::string& group) {
 GroupVerdict judge(const SuccessRateCheck& check, const GroupSummary& group) {
   const Interval interval = wilson_interval(group.success, check.confidence);
   const std::string words =
-      fmt::format("{} of {} passed; the rate's {:g} % interval {:.3f} to {:.3f} must begin at {:g} or above",
-                  group.success.successes, group.success.trials, 100.0 * check.confidence, interval.low, interval.high,
-                  check.at_least);
+      fmt::format("{} of {} passed; the rate's {:g} % interval {} to {:.3f} must begin at {} or above",
+                  group.success.successes, group.success.trials, 100.0 * check.confidence,
+                  distinct_decimals(interval.low, check.at_least), interval.high, check.at_least);
   return {
       group.group, std::string(SuccessRateCheck::kName), interval.low >= check.at_least, interval.low, check.at_least,
       words};
@@ -55,14 +56,17 @@ GroupVerdict judge(const NoWorseCheck& check, const GroupSummary& group) {
     verdict.value = newcombe_difference(group.success, before, 2.0 * check.confidence - 1.0).low;
     verdict.limit = -*check.margin;
     verdict.passed = verdict.value >= verdict.limit;
-    verdict.words = fmt::format("{}; with {:g} % confidence the rate changed by {:+.3f} or better; required: {:+g}",
-                                counts, 100.0 * check.confidence, verdict.value, verdict.limit);
+    verdict.words =
+        fmt::format("{}; with {:g} % confidence the rate changed by {} or better; required: {}", counts,
+                    100.0 * check.confidence, distinct_decimals(verdict.value, verdict.limit), verdict.limit);
   } else {
     verdict.value = fisher_lower_tail(group.success, before);
     verdict.limit = 1.0 - check.confidence;
     verdict.passed = verdict.value >= verdict.limit;
-    verdict.words = fmt::format("{}; chance alone does as badly with probability {:.3f}, {}", counts, verdict.value,
-                                verdict.passed ? "which shows no loss" : "so it has become worse");
+    verdict.words =
+        fmt::format("{}; chance alone does as badly with probability {}, {}", counts,
+                    distinct_decimals(verdict.value, verdict.limit),
+                    verdict.passed ? "so a loss is not shown; 'margin' can rule one out" : "so it has become worse");
   }
   return verdict;
 }
@@ -151,6 +155,17 @@ std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const 
     }
   }
   return verdicts;
+}
+
+void require_decidable(const BatchOrders& batch) {
+  std::vector<FlightRecord> planned;
+  for (const Order& order : batch.orders) {
+    if (order.fault.empty())
+      planned.push_back({.order = order, .status = FlightRecord::Status::missing, .cause = {}, .result = {}});
+  }
+  const std::vector<GroupSummary> groups = summarize(planned);
+  judge(batch.checks, groups);  // throws if an earlier batch cannot be read
+  require_decidable(batch.checks, groups);
 }
 
 }  // namespace hedgehop::sim

@@ -38,6 +38,10 @@ int64_t flights_to_show(double rate, double confidence);
 /// Throws InputError naming the number of flights that could; no number of flights shows a rate of 1.
 void require_decidable(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);
 
+/// Refuses the checks of a batch before its flights, as above, and an earlier batch that cannot be read. Orders with a
+/// fault do not count. Throws InputError.
+void require_decidable(const BatchOrders& batch);
+
 /// Results of all checks for all groups. A group that the earlier batch lacks fails no_worse.
 /// Throws InputError naming the file when an earlier batch cannot be read.
 std::vector<GroupVerdict> judge(const std::vector<CampaignCheck>& checks, const std::vector<GroupSummary>& groups);

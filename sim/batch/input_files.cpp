@@ -30,7 +30,8 @@ bool is_result(const fs::path& file) {
 size_t count_yaml(const fs::path& folder) {
   std::error_code error;
   size_t count = 0;
-  for (fs::recursive_directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(folder, options, error), end; entry != end; entry.increment(error)) {
     if (is_hidden(entry->path())) {
       entry.disable_recursion_pending();
     } else if (!entry->is_directory(error) && is_yaml(entry->path()) && !is_result(entry->path())) {
@@ -40,17 +41,26 @@ size_t count_yaml(const fs::path& folder) {
   return count;
 }
 
-void add_files(const fs::path& folder, bool recursive, FolderFiles& files) {
+void add_files(const fs::path& folder, bool recursive, FolderFiles& files);
+
+/// Descends into a subfolder or counts its files. A link to a folder may lead back to this one, so it is not followed.
+void add_subfolder(const fs::directory_entry& entry, bool recursive, FolderFiles& files) {
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
+  const bool is_link = entry.is_symlink(error);
+  if (recursive && !is_link) {
+    add_files(entry.path(), true, files);
+  } else if (const size_t count = count_yaml(entry.path()); count > 0) {
+    is_link ? void(files.links.push_back(entry.path())) : void(files.not_descended.emplace_back(entry.path(), count));
+  }
+}
+
+void add_files(const fs::path& folder, bool recursive, FolderFiles& files) {
+  std::error_code failure, error;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+    const fs::path& path = entry->path();
     if (is_hidden(path)) continue;
-    if (entry.is_directory(error)) {
-      if (recursive) {
-        add_files(path, true, files);
-      } else if (const size_t count = count_yaml(path); count > 0) {
-        files.not_descended.emplace_back(path, count);
-      }
+    if (entry->is_directory(error)) {
+      add_subfolder(*entry, recursive, files);
     } else if (!is_yaml(path)) {
       files.others.push_back(path);
     } else if (is_result(path)) {
@@ -59,6 +69,8 @@ void add_files(const fs::path& folder, bool recursive, FolderFiles& files) {
       files.yaml.push_back(path);
     }
   }
+  if (failure)
+    files.faults.push_back(fmt::format("{}: cannot read this folder: {}", folder.string(), failure.message()));
 }
 
 constexpr std::string_view kModulePaths[] = {kPluginKey, kPythonKey};
@@ -102,11 +114,13 @@ std::string with_module_path(const std::string& value, const fs::path& folder) {
 }  // namespace
 
 FolderFiles files_of(const fs::path& folder, bool recursive) {
-  FolderFiles files{.folder = folder, .yaml = {}, .others = {}, .not_descended = {}};
+  FolderFiles files{.folder = folder, .yaml = {}, .others = {}, .not_descended = {}, .links = {}, .faults = {}};
   add_files(folder, recursive, files);
   std::ranges::sort(files.yaml);
   std::ranges::sort(files.others);
   std::ranges::sort(files.not_descended);
+  std::ranges::sort(files.links);
+  std::ranges::sort(files.faults);
   return files;
 }
 
@@ -131,6 +145,10 @@ std::string left_out_words(const FolderFiles& files, const std::set<fs::path>& u
   for (const auto& [folder, count] : files.not_descended) {
     words.push_back(fmt::format("{}/ ({} YAML file{}; use --recursive)",
                                 folder.lexically_relative(files.folder).string(), count, count == 1 ? "" : "s"));
+  }
+  for (const fs::path& link : files.links) {
+    words.push_back(
+        fmt::format("{}/ (a link; name the folder itself)", link.lexically_relative(files.folder).string()));
   }
   if (files.results > 0) words.push_back(fmt::format("{} scenarios that flights wrote as results", files.results));
   return words.empty() ? "" : fmt::format("{}: left out: {}", files.folder.string(), fmt::join(words, "; "));

@@ -16,10 +16,13 @@ struct FolderFiles {
   std::vector<std::filesystem::path> yaml;                              ///< *.yaml and *.yml, sorted
   std::vector<std::filesystem::path> others;                            ///< files of other kinds, sorted
   std::vector<std::pair<std::filesystem::path, size_t>> not_descended;  ///< subfolders with their number of YAML files
+  std::vector<std::filesystem::path> links;                             ///< to folders with YAML files, sorted
+  std::vector<std::string> faults;                                      ///< one line for each unreadable folder
   size_t results = 0;                                                   ///< scenarios that earlier flights wrote
 };
 
-/// Returns the files of a folder. Hidden files and folders do not count. @param recursive  whether subfolders are read.
+/// Returns the files of a folder. Hidden files and folders do not count; links to folders are not followed.
+/// @param recursive  whether subfolders are read.
 FolderFiles files_of(const std::filesystem::path& folder, bool recursive);
 
 /// Returns one line that names the files that are left out, or "". @param used  files that scenarios use, canonical;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/batch/earlier_batch.h"
+#include "sim/batch/group_verdict.h"
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
@@ -28,6 +30,19 @@ struct PlannedBatch {
   std::optional<Registration> plan;
 };
 
+/// Adds the checks of the command line, except those of the inputs or the earlier batch.
+void add_checks(const BatchOptions& options, BatchOrders& batch) {
+  const auto add = [&batch](const CampaignCheck& check) {
+    if (std::ranges::find(batch.checks, check) == batch.checks.end()) batch.checks.push_back(check);
+  };
+  if (options.min_success) add(SuccessRateCheck{*options.min_success, options.confidence});
+  if (options.no_worse_than.empty()) return;
+  std::filesystem::path than = options.no_worse_than;
+  if (std::filesystem::is_directory(than)) than /= "batch.json";
+  read_batch_json(than);  // refused before any flight
+  add(NoWorseCheck{than.string(), options.confidence, options.margin});
+}
+
 PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::path& out) {
   if (options.inputs.empty() && options.plan.empty() && !options.failed_only) {
     throw InputError("batch: name scenarios, campaigns or folders (or --plan, or --failed-only with --out)");
@@ -37,30 +52,27 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
   if (!options.plan.empty()) plan = read_registration(options.plan);
   std::vector<std::string> overrides = options.overrides;
   if (!options.renderer.empty()) overrides.push_back("drawing.renderer=" + options.renderer);
-  if (options.inputs.empty() && !plan && !overrides.empty()) {
-    throw InputError("batch --failed-only repeats the flights of --out as they are: no --set or --renderer");
+  if (options.inputs.empty() && !plan && !(overrides.empty() && options.seeds.empty())) {
+    throw InputError("batch --failed-only repeats the flights of --out as they are: no --seeds, --set or --renderer");
   }
   BatchOrders batch = plan                     ? orders_of(*plan, seeds, overrides)
                       : options.inputs.empty() ? reread_batch(out / "batch.json")
                                                : read_batch(options.inputs, seeds, overrides, options.recursive);
   if (!plan) plan = plan_of(batch);
-  if (options.min_success) batch.checks.push_back(SuccessRateCheck{*options.min_success, options.confidence});
-  if (!options.no_worse_than.empty()) {
-    std::filesystem::path than = options.no_worse_than;
-    if (std::filesystem::is_directory(than)) than /= "batch.json";
-    read_batch_json(than);  // refused before any flight
-    batch.checks.push_back(NoWorseCheck{than.string(), options.confidence, options.margin});
-  }
+  add_checks(options, batch);
   if (batch.orders.empty() || std::ranges::none_of(batch.orders, &std::string::empty, &Order::fault)) {
     throw InputError(
         batch.faults.empty()
             ? std::vector<std::string>{"batch: no flights; name a scenario, a campaign or a folder with such files"}
             : batch.faults);
   }
-  // Reports an unreadable earlier batch before the flights.
-  const std::vector<GroupSummary> planned = summarize(gather(batch.orders, {}, /*other_builds=*/false));
-  judge(batch.checks, planned);
-  require_decidable(batch.checks, planned);
+  try {
+    require_decidable(batch);
+  } catch (const InputError& error) {
+    std::vector<std::string> faults = batch.faults;
+    faults.insert(faults.end(), error.errors().begin(), error.errors().end());
+    throw InputError(faults);
+  }
   return {.batch = std::move(batch), .plan = std::move(plan)};
 }
 
@@ -69,11 +81,7 @@ std::optional<StoppingRule> rule_of(const BatchOptions& options, const PlannedBa
   const bool asked = !options.until.empty() || options.until_width;
   const bool planned = plan && plan->config.rule;
   if (!asked && !planned) return {};
-  if (!batch.checks.empty() || batch.leaderboard) {
-    throw InputError(
-        "--until: success_rate, no_worse and leaderboards are for a number of flights planned in advance; stopping "
-        "early would falsify them");
-  }
+  require_planned_number(batch);
   if (!asked) {
     return StoppingRule{parse_rate_claim(plan->config.rule->until), plan->config.rule->confidence};
   }

@@ -50,7 +50,7 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   options->jobs = usable_cores();
   auto* const files =
       command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`) or folders");
-  command->add_flag("--recursive", options->recursive, "also read the subfolders of folders");
+  command->add_flag("--recursive", options->recursive, "also read the subfolders of folders")->needs(files);
   command->add_option("--seeds", options->seeds, "seeds of each scenario, such as 1:10 or 1:3,7");
   add_overrides(*command, options->overrides, "override a value of every scenario; may be repeated");
   add_renderer(*command, options->renderer);
@@ -79,13 +79,15 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("RATE");
-  command
-      ->add_option("--no-worse-than", options->no_worse_than,
-                   "require a success rate over the seeds that is no worse than in this earlier batch")
-      ->type_name("DIR");
+  auto* const no_worse =
+      command
+          ->add_option("--no-worse-than", options->no_worse_than,
+                       "require a success rate over the seeds that is no worse than in this earlier batch")
+          ->type_name("DIR");
   command
       ->add_option("--margin", options->margin,
                    "with --no-worse-than: loss of the success rate that must be excluded, 0 to 1")
+      ->needs(no_worse)
       ->transform(number())
       ->check(CLI::Range(0.0, 1.0));
   auto* const until =
@@ -167,17 +169,23 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("--out", options->out, "output folder")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part of the sweep, such as 2/8")->type_name("I/N");
-  command->add_flag("--merge", options->merge, "write the tables of all existing results, without flying");
+  auto* const merge =
+      command->add_flag("--merge", options->merge, "write the tables of all existing results, without flying");
   command->add_option("--from", options->merge_from, "with --merge: additional folder with results; may be repeated")
+      ->needs(merge)
       ->type_name("DIR");
-  command->add_flag("--missing", options->missing, "print the number of flights without a result, and exit");
-  command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
+  command->add_flag("--missing", options->missing, "print the number of flights without a result, and exit")
+      ->excludes(merge);
+  auto* const on =
+      command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
   command->add_option("--tasks", options->tasks, "number of shards of a Slurm job array; default 8")
+      ->needs(on)
       ->transform(whole_number())
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--slurm-option", options->slurm_options,
                    "option of every sbatch call, such as --partition=night; may be repeated")
+      ->needs(on)
       ->check([](const std::string& option) {
         const bool one_line = std::ranges::none_of(option, [](unsigned char c) { return std::iscntrl(c) != 0; });
         return option.starts_with('-') && one_line ? "" : "expected one line that begins with '-'";

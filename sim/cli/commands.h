@@ -171,7 +171,8 @@ struct FalsifyOptions {
   std::filesystem::path program;       ///< of the workers, absolute; empty: this one
 };
 /// Starts or resumes a search for failing flights. Flies each failure again, shrinks it and stores it as a scenario.
-/// @return 0 without a failure, 1 with failures, 3 if a failure is not repeatable.
+/// @return 0 without a failure, 1 with confirmed failures, 3 if a failure is not repeatable, 4 if flights were not
+/// flown and no failure is confirmed.
 int falsify(const FalsifyOptions& options);
 
 struct BranchOptions {
@@ -273,6 +274,9 @@ inline LoadedScenario load(const ScenarioOptions& options) {
 
 /// Prints one line for each camera whose image has black pixels because the polynomial of its lens turns over.
 void print_black_pixels(const RigConfig& rig);
+
+/// Warns that the replay of a run has no images of cameras. @param fault  of write_replay(); empty: no warning.
+void warn_of_replay(const std::filesystem::path& folder, const std::string& fault);
 
 /// Prints one line for each imported mesh with features that are not rendered, or images that are reduced.
 void print_import_limits(const FlightParts& parts);

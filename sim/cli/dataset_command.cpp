@@ -7,6 +7,7 @@
 
 #include "sim/batch/seeds.h"
 #include "sim/batch/worker_pool.h"
+#include "sim/cli/campaign_options.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/progress.h"
@@ -101,22 +102,27 @@ void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions
                    "role of the camera whose poses the file has; default the IMU, or for trajectory.csv the body")
       ->type_name("NAME");
   command->add_option("--camera", data.camera, "role of the camera; default the first with images")->type_name("NAME");
-  command->add_option("--images", data.images,
-                      "number of images in all worlds together; default all poses of the file");
+  command->add_option("--images", data.images, "number of images in all worlds together; default all poses of the file")
+      ->transform(whole_number());
   command->add_option("--channels", data.channels, "default color,depth,flow,semantic,instance; also grey")
       ->delimiter(',');
   command->add_option("--height", data.height_m, "random poses: minimum and maximum height, m; default 1,20")
+      ->transform(number())
       ->delimiter(',')
       ->expected(2);
   command
       ->add_option("--distance", data.distance_m,
                    "random poses: minimum and maximum distance to the nearest obstacle, m; default 1,30")
+      ->transform(number())
       ->delimiter(',')
       ->expected(2);
   command->add_option("--tilt", data.tilt_deg, "random poses: maximum of roll and of pitch, degrees; default 20")
+      ->transform(number())
       ->check(CLI::Range(0.0, 80.0));
   command->add_option("--out", data.out, "output folder")->required()->type_name("DIR");
-  command->add_option("-j,--jobs", data.jobs, "worlds in parallel; default 1")->check(CLI::Range(1, 1024));
+  command->add_option("-j,--jobs", data.jobs, "worlds in parallel; default 1")
+      ->transform(whole_number())
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--resume", data.resume, "continue an interrupted data set");
   command->add_option("--world", data.world)->group("");  // hidden: for workers
   command->callback([&] { chosen = [&data] { return dataset(data); }; });

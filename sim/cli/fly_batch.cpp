@@ -178,11 +178,11 @@ void print_failed(const std::vector<FlightRecord>& records) {
   }
 }
 
-void write_campaign_page(const std::filesystem::path& folder) {
+void write_campaign_page(const std::filesystem::path& folder, bool quiet) {
   const std::string page = (folder / "report.html").string();
   try {
     write_campaign_report(folder, std::nullopt);
-    fmt::print("written: {}\n", page);
+    if (!quiet) fmt::print("written: {}\n", page);
   } catch (const std::exception& error) {
     notice(fmt::format("{}: not written: {}\n", page, error.what()));
   }
@@ -224,10 +224,8 @@ int fly_batch(BatchRun run) {
     fmt::print("{}{}", summary_text(outcome), matrix);
   }
   files.raise();
-  if (!run.json) {
-    fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
-    if (run.page) write_campaign_page(run.fly.out);
-  }
+  if (!run.json) fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
+  if (run.page) write_campaign_page(run.fly.out, /*quiet=*/run.json);
   warn_of_missed_goals(outcome.records);
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   if (!run.batch.faults.empty()) return kBadInput;

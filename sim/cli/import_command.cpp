@@ -8,6 +8,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/plot_file.h"
 #include "sim/config/input_error.h"
+#include "sim/record/table.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/obstacle_field.h"
 
@@ -16,23 +17,28 @@ namespace {
 
 constexpr std::string_view kShapeNames[] = {"box", "cylinder", "sphere", "hull", "surface"};
 
-/// Returns a row with the pose in W and the size of a solid. @param X_WM  pose of its frame.
-std::string solid_row(const scenes::Solid& solid, const Eigen::Isometry3d& X_WM) {
+/// Adds a row with the pose in W and the size of a solid. @param X_WM  pose of its frame.
+void add_row(const scenes::Solid& solid, const Eigen::Isometry3d& X_WM, fmt::memory_buffer& out) {
   const Eigen::Isometry3d pose_W = X_WM * solid.X_WS;
   const Eigen::Quaterniond q(pose_W.linear());
-  const Eigen::Vector3d p = pose_W.translation(), size_m = 2.0 * solid.half_extents_m;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", solid.name, kShapeNames[static_cast<size_t>(solid.shape)],
-                     p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), size_m.x(), size_m.y(), size_m.z());
+  CsvLine(out)
+      .add(std::string_view(solid.name))
+      .add(kShapeNames[static_cast<size_t>(solid.shape)])
+      .add(Eigen::Vector3d(pose_W.translation()))
+      .add(q.w())
+      .add(Eigen::Vector3d(q.vec()))
+      .add(Eigen::Vector3d(2.0 * solid.half_extents_m));
 }
 
 std::string solids_csv(const scenes::Scene& scene, double t_s) {
-  std::string text = "name,shape,north_m,east_m,down_m,qw,qx,qy,qz,size_x_m,size_y_m,size_z_m\n";
-  for (const scenes::Solid& solid : scene.solids) text += solid_row(solid, Eigen::Isometry3d::Identity());
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out), "name,shape,north_m,east_m,down_m,qw,qx,qy,qz,size_x_m,size_y_m,size_z_m\n");
+  for (const scenes::Solid& solid : scene.solids) add_row(solid, Eigen::Isometry3d::Identity(), out);
   for (const scenes::Mover& mover : scene.movers) {
     const Eigen::Isometry3d X_WM = scenes::X_WM(mover.motion, t_s);
-    for (const scenes::Solid& solid : mover.solids) text += solid_row(solid, X_WM);
+    for (const scenes::Solid& solid : mover.solids) add_row(solid, X_WM, out);
   }
-  return text;
+  return fmt::to_string(out);
 }
 
 }  // namespace

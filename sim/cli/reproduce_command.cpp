@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -45,9 +46,14 @@ std::vector<Paper> read_papers(const std::vector<std::string>& names) {
   if (names.empty()) files = shipped_files("papers");
   std::vector<Paper> papers;
   std::vector<std::string> errors;
+  std::map<std::string, fs::path> file_of;  // a key is the folder of the paper's flights
   for (const fs::path& file : files) {
     try {
       papers.push_back(read_paper(file));
+      const std::string& key = papers.back().key;
+      if (const auto [known, added] = file_of.try_emplace(key, file); !added) {
+        errors.push_back(fmt::format("two papers are called '{}': {}, {}", key, known->second.string(), file.string()));
+      }
     } catch (const InputError& error) {
       errors.insert(errors.end(), error.errors().begin(), error.errors().end());
     }
@@ -86,20 +92,31 @@ std::string short_renderer(const std::string& info) {
          (mesa == std::string::npos ? info : info.substr(mesa, info.find_first_of(" ,)\n", mesa + 5) - mesa));
 }
 
-/// Returns the renderers of all flights that were flown, then the packages with their versions.
-std::string packages_of(const std::vector<FlightRecord>& records) {
+std::set<std::string> renderers_of(const std::vector<FlightRecord>& records) {
   std::set<std::string> renderers;
   for (const FlightRecord& record : records) {
     if (!record.result) continue;
     const std::string& renderer = record.result->flight.libraries.renderer;
     renderers.insert(short_renderer(renderer.empty() ? "unknown" : renderer));
   }
-  return fmt::format("{}{}{}", fmt::join(renderers, ", "), renderers.empty() ? "" : ", ", package_versions());
+  return renderers;
+}
+
+/// Writes the page of --write, and prints a line for each section of the earlier page that it lacks.
+void write_results_page(const fs::path& file, const RowsOfPapers& papers, const PageFacts& facts) {
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  const std::string earlier = fs::exists(file) ? read_file_whole(file) : "";
+  const std::string page = results_page(papers, facts, earlier);
+  write_file_whole(file, page);
+  for (const std::string& heading : dropped_sections(earlier, page)) {
+    notice(fmt::format("{}: removed the section '{}': not written by this build with these packages\n", file.string(),
+                       heading));
+  }
 }
 
 void write_pages(const ReproduceOptions& options, const fs::path& out, const RowsOfPapers& papers,
-                 const nlohmann::ordered_json& pages, const std::string& packages) {
-  const PageFacts facts = page_facts(papers, packages, options.quick);
+                 const nlohmann::ordered_json& pages, const std::vector<FlightRecord>& records) {
+  const PageFacts facts = page_facts(papers, package_versions(), options.quick, renderers_of(records));
   const std::string text = results_page(papers, facts);
   EveryWrite files;
   bool has_page = false;
@@ -117,11 +134,7 @@ void write_pages(const ReproduceOptions& options, const fs::path& out, const Row
     }
   });
   if (!options.write.empty()) {
-    files.attempt([&] {
-      if (options.write.has_parent_path()) fs::create_directories(options.write.parent_path());
-      const std::string earlier = fs::exists(options.write) ? read_file_whole(options.write) : "";
-      write_file_whole(options.write, results_page(papers, facts, earlier));
-    });
+    files.attempt([&] { write_results_page(options.write, papers, facts); });
   }
   if (const std::string several = several_builds_line(facts); !several.empty()) fmt::print("{}\n", several);
   if (options.quick) fmt::print("{}\n", kQuickRun);
@@ -161,7 +174,7 @@ int reproduce(const ReproduceOptions& options) {
     rows_of_papers.emplace_back(paper, rows);
   }
   print_failed(records);
-  write_pages(options, out, rows_of_papers, pages, packages_of(records));
+  write_pages(options, out, rows_of_papers, pages, records);
   const bool all_flown = std::ranges::all_of(records, [](const auto& r) { return r.status == Status::flown; });
   const bool rows_hold = std::ranges::all_of(rows_of_papers, [](const auto& paper) { return all_hold(paper.second); });
   return all_flown && rows_hold ? 0 : kFails;

@@ -169,7 +169,7 @@ bool write_pages(const RunOptions& options, const Scenario& scenario, const RunI
   const bool failed = !holds(verdict_of(flight.result));
   const bool has_report = !options.no_report || keeps(options, "report", failed);
   try {
-    if (keeps(options, "replay", failed)) write_replay(out, run_record(scenario, info, flight));
+    if (keeps(options, "replay", failed)) warn_of_replay(out, write_replay(out, run_record(scenario, info, flight)));
     if (has_report) write_report(out, run_record(scenario, info, flight));  // links the replay
   } catch (const PagesAbsent& absent) {
     notice(fmt::format("{}\n", absent.what()));
@@ -207,10 +207,11 @@ int run(const RunOptions& options) {
   std::optional<FlightPace> pace;
   if (options.pace) pace.emplace(*options.pace);
   const Flight flight = fly(simulation, watcher, view ? &*view : nullptr, pace ? &*pace : nullptr);
+  std::error_code ignored;
+  std::filesystem::remove(film, ignored);  // of an earlier flight, because this one may have no images
   watcher.close();
   autopilot.reset();  // ends its process and closes the recording
   const bool failed = !holds(verdict_of(flight.result));
-  std::error_code ignored;
   if (!scenario.film.enabled && !keeps(options, "film", failed)) std::filesystem::remove(film, ignored);
 
   const RunInfo info{scenario.name,

@@ -39,6 +39,11 @@ void film_worst(const std::filesystem::path& folder, size_t count) {
 
 }  // namespace
 
+void warn_of_replay(const std::filesystem::path& folder, const std::string& fault) {
+  if (fault.empty()) return;
+  notice(fmt::format("warning: {} has no images of cameras: {}\n", (folder / "replay.html").string(), fault));
+}
+
 void print_black_pixels(const RigConfig& rig) {
   for (const CameraConfig& camera : rig.cameras) {
     const double share = vision::camera::share_past_turn(camera.model());
@@ -136,7 +141,7 @@ int report(const ReportOptions& options) {
     throw InputError(fmt::format("{}: no result.json: a run is compared with another run", options.against.string()));
   }
   const RunRecord run = read_run(options.folder);
-  if (options.replay) write_replay(options.folder, run);
+  if (options.replay) warn_of_replay(options.folder, write_replay(options.folder, run));
   // It links the replay.
   write_report(options.folder, run, options.against.empty() ? std::nullopt : std::optional(options.against));
   written("report.html");

@@ -76,8 +76,7 @@ void write_design(const SweepRun& run, const std::vector<std::string>& design_po
     json["minimize"] = optimize->minimize;
     json["failure_cost"] = optimize->failure_cost;
   }
-  if (block > 0) json["block"] = block;
-  if (block > 0) json["points"] = design_points;
+  if (block > 0) json.update({{"block", block}, {"points", design_points}});
   write_file_whole(run.out / "sweep.json", json_text(json) + "\n");
 }
 
@@ -277,6 +276,9 @@ int plan_and_fly_sweep(const SweepOptions& options) {
   }
   const SweepPlan plan(run.sweep);
   for (const std::string& line : plan.notices()) notice(line + "\n");
+  if (options.on == "slurm" && (options.missing || options.merge || !options.shard.empty())) {
+    throw InputError("--on slurm submits the whole sweep: no --shard, --merge or --missing");
+  }
   if (options.on == "slurm") return on_slurm(run, plan.flights());
   Shard shard;
   if (!options.shard.empty()) {
@@ -285,8 +287,7 @@ int plan_and_fly_sweep(const SweepOptions& options) {
   }
   if (options.missing) return gather_all(run, plan, shard);
   if (options.dry_run) return print_plan(run, plan, shard);
-  std::optional<FolderLock> lock;
-  options.shard.empty() ? lock.emplace(run.out) : lock.emplace(run.out, run.name);
+  const FolderLock lock = options.shard.empty() ? FolderLock(run.out) : FolderLock(run.out, run.name);
   return options.merge ? gather_all(run, plan, shard) : fly_all(run, plan, shard);
 }
 

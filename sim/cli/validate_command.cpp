@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sim/batch/campaign_file.h"
+#include "sim/batch/group_verdict.h"
 #include "sim/batch/input_files.h"
 #include "sim/batch/junit.h"
 #include "sim/cli/commands.h"
@@ -87,6 +88,8 @@ void assemble(const Order& order) {
 ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const BatchOrders batch = read_batch({file}, {}, overrides);
   if (!batch.faults.empty()) throw InputError(batch.faults);
+  require_decidable(batch);
+  if (const auto plan = plan_of(batch); plan && plan->config.rule) require_planned_number(batch);
   ValidFile valid;
   std::map<std::string, size_t> groups;
   for (const Order& order : batch.orders) {
@@ -127,7 +130,10 @@ class Validator {
       return;
     }
     const FolderFiles files = files_of(input, options_.recursive);
-    if (files.yaml.empty()) refuse({fmt::format("{}: no *.yaml or *.yml in this folder", input.string())});
+    for (const std::string& fault : files.faults) refuse({fault});
+    if (files.yaml.empty() && files.faults.empty()) {
+      refuse({fmt::format("{}: no *.yaml or *.yml in this folder", input.string())});
+    }
     for (const std::filesystem::path& file : files.yaml) check(file);
     if (const std::string words = left_out_words(files, used_); !words.empty()) notice(words + "\n");
   }

@@ -115,6 +115,9 @@ void declare_identify(CLI::App& app, std::function<int()>& chosen, VehicleOption
   command->add_option("--plot", options.plot, "also write a page with gain, phase and coherence")
       ->check(written_as(".html"))
       ->type_name("FILE.html");
+  for (const char* simulated : {"--output", "--size", "--from", "--to", "--duration", "--speed", "--csv", "--plot"}) {
+    command->get_option("--log")->excludes(command->get_option(simulated));
+  }
   command->callback([&] {
     chosen = [&vehicles] {
       if (vehicles.identify_log.logs.empty()) return identify(vehicles.identify);

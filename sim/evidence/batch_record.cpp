@@ -41,6 +41,7 @@ Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
 
 Json flight_json(const FlightRecord& record) {
   const Verdict verdict = verdict_of(record);
+  const bool open = verdict == Verdict::unchecked || record.status == FlightRecord::Status::missing;
   Json overrides = Json::array();
   for (const std::string& text : record.order.overrides) overrides.push_back(name_text(text));
   return Json{{"id", record.order.id},
@@ -49,7 +50,7 @@ Json flight_json(const FlightRecord& record) {
               {"seed", record.order.seed},
               {"set", std::move(overrides)},
               {"status", std::string(to_string(record.status))},
-              {"passed", verdict == Verdict::unchecked ? Json(nullptr) : Json(verdict == Verdict::passed)},
+              {"passed", open ? Json(nullptr) : Json(verdict == Verdict::passed)},
               {"cause", record.cause},
               {"command", rerun_command(record.order)},
               {"result", record.result ? to_json(record.result->info, record.result->flight) : Json(nullptr)}};

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/batch/earlier_batch.h"
 #include "sim/batch/seeds.h"
 #include "sim/config/include.h"
 #include "sim/config/reader.h"
@@ -132,18 +133,28 @@ std::vector<std::string> deviations(const Registration& plan, const std::vector<
   return found;
 }
 
+void require_planned_number(const BatchOrders& batch) {
+  if (batch.checks.empty() && !batch.leaderboard) return;
+  throw InputError(
+      "--until: success_rate, no_worse and leaderboards are for a number of flights planned in advance; stopping early "
+      "would falsify them");
+}
+
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s) {
-  Conduct conduct{.planned = static_cast<int64_t>(batch.orders.size()), .tuned_on = batch.tuned_on, .rule = rule};
+  std::vector<Order> orders;
+  std::ranges::copy_if(batch.orders, std::back_inserter(orders), &std::string::empty, &Order::fault);
+  Conduct conduct{.planned = static_cast<int64_t>(orders.size()), .tuned_on = batch.tuned_on, .rule = rule};
+  conduct.checks = batch.checks;
   std::vector<uint64_t> seeds;
-  for (const Order& order : batch.orders) seeds.push_back(order.seed);
+  for (const Order& order : orders) seeds.push_back(order.seed);
   conduct.seeds = seed_words(std::move(seeds));
   conduct.limit_s = limit_s;
   conduct.plan = plan;
   if (plan) {
     conduct.tuned_on = plan->config.tuned_on.seeds;
     conduct.settings_tried = plan->config.tuned_on.settings_tried;
-    conduct.deviations = deviations(*plan, batch.orders, rule, limit_s);
+    conduct.deviations = deviations(*plan, orders, rule, limit_s);
   }
   return conduct;
 }
@@ -157,6 +168,7 @@ Json to_json(const Conduct& conduct) {
     json["rule"] = conduct.rule->text();
     json["confidence"] = conduct.rule->confidence;
   }
+  json["checks"] = checks_json(conduct.checks);
   json["limit_s"] = conduct.limit_s > 0.0 ? Json(conduct.limit_s) : Json(nullptr);
   json["plan"] = nullptr;
   if (conduct.plan) {
@@ -174,6 +186,7 @@ Json conduct_data(const std::filesystem::path& folder) {
   if (!batch.is_object() || !batch.contains("conduct")) return nullptr;  // half written, or of an earlier version
   Json data = batch.at("conduct");
   data["sequential"] = batch.at("sequential");
+  data["verdicts"] = batch.value("verdicts", Json::array());
   if (Json& plan = data.at("plan"); !plan.is_null()) {
     const std::string now = sha256(raw_name(plan.at("file").get<std::string>()));
     plan["now"] = now == plan.at("sha256").get<std::string>() ? "same" : now == "missing" ? "gone" : "changed";

@@ -97,17 +97,22 @@ struct Conduct {
   double limit_s = 0.0;  ///< maximum wall time of a flight; 0 for no limit
   std::optional<Registration> plan;
   std::vector<std::string> deviations;  ///< from the plan
+  std::vector<CampaignCheck> checks;    ///< over the seeds
 };
 
-/// Returns how a batch is flown. @param limit_s  maximum wall time of a flight; 0 for no limit.
+/// Refuses a stopping rule together with checks over the seeds or a leaderboard. Throws InputError.
+void require_planned_number(const BatchOrders& batch);
+
+/// Returns how a batch is flown; orders with a fault do not count. @param limit_s  maximum wall time of a flight; 0 for
+/// no limit.
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s);
 
 /// Returns the key `conduct` of batch.json.
 nlohmann::ordered_json to_json(const Conduct& conduct);
 
-/// Returns the key `conduct` of a folder's batch.json for its page, plus `sequential`; null if there is no such key.
-/// The key `now` of its plan is "same", "changed" since the batch was flown, or "gone".
+/// Returns the key `conduct` of a folder's batch.json for its page, plus `sequential` and `verdicts`; null if there is
+/// no such key. The key `now` of its plan is "same", "changed" since the batch was flown, or "gone".
 nlohmann::ordered_json conduct_data(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

@@ -35,10 +35,10 @@ std::optional<bool> observe(const FlightEvent& event, const FlightRecord& record
 /// Returns a figure of a flight's result; nullopt if missing. A clearance with no obstacle in range is infinite.
 std::optional<double> figure_of(const FlightRecord& record, const std::string& figure);
 
-/// Reads a number of a rule. Throws InputError that names the rule.
 /// Throws InputError if the text of a rule is longer than any rule.
 void require_short_rule(std::string_view text);
 
+/// Reads a number of a rule. Throws InputError that names the rule.
 double parse_rule_number(const std::string& text, std::string_view rule);
 
 }  // namespace hedgehop::sim

@@ -26,6 +26,9 @@ Repeat repeat_of(const FlightRecord& a, const FlightRecord& b, const std::string
   return equal ? Repeat::equal : Repeat::differs;
 }
 
+/// Returns true, false, or null for a repeat that was not flown.
+Json repeat_json(Repeat repeat) { return repeat == Repeat::not_flown ? Json(nullptr) : Json(repeat == Repeat::equal); }
+
 /// Writes the scenario of the shrunk flight, which can serve as a regression test, and returns its file.
 std::filesystem::path write_scenario(const Counterexample& found, const std::string& name,
                                      const std::string& search_file, const std::string& check,
@@ -52,12 +55,12 @@ Json counterexample_json(const FalsifyResult& result, const Counterexample& foun
               {"check", trial.weakest.name},
               {"outcome", outcome_words(found.shrunk.record)},
               {"robustness", trial.weakest.robustness},
-              {"repeats", found.repeats == Repeat::equal},
+              {"repeats", repeat_json(found.repeats)},
               {"file", (std::filesystem::path("counterexamples") / found.file.filename()).string()},
               {"folder", found.folder},
               {"shrunk_robustness", found.weakest.robustness},
               {"trajectory_hash", hash_of(found.shrunk.record)},
-              {"confirmed", found.confirmed == Repeat::equal},
+              {"confirmed", repeat_json(found.confirmed)},
               {"items", found.shrunk.items},
               {"items_before", found.shrunk.items_before},
               {"duration_s", found.shrunk.scenario.duration_s},

@@ -37,7 +37,8 @@ std::optional<Counterexample> keep_counterexample(const FalsifySearch& search, c
                                                   const FalsifyResult& result, size_t number,
                                                   const std::filesystem::path& out, const CounterexampleFlights& fly);
 
-/// Returns the text of falsify.json: the search, its flights, failures and counterexamples.
+/// Returns the text of falsify.json: the search, its flights, failures and counterexamples, whose repeats are true,
+/// false or, if not flown, null.
 /// @param suite  of a search by the competition's score; else null.
 std::string falsify_json(const FalsifySearch& search, const FalsifyResult& result,
                          const std::vector<Counterexample>& counterexamples, const CompetitionSuite* suite = nullptr);

@@ -184,7 +184,10 @@ class Search {
         const double broken = violation_at(point);
         generation.push_back(
             {Eigen::VectorXd::Map(point.data(), static_cast<Eigen::Index>(point.size())), kInfeasibleCost + broken});
-        if (broken > 0.0) continue;
+        if (broken > 0.0) {
+          ++result_.infeasible;
+          continue;
+        }
         places.push_back(i);
         feasible.push_back(std::move(point));
       }
@@ -208,8 +211,9 @@ class Search {
       const Eigen::VectorXd x = evolution.draw();
       point.assign(x.begin(), x.end());
       const bool inside = std::ranges::all_of(point, [](double c) { return c >= 0.0 && c <= 1.0; });
-      if (inside && violation_at(point) == 0.0) return point;
-      ++result_.infeasible;
+      if (!inside) continue;
+      if (violation_at(point) == 0.0) return point;
+      if (draw + 1 < kRedraws) ++result_.infeasible;  // the caller counts the last one
     }
     for (double& coordinate : point) coordinate = std::clamp(coordinate, 0.0, 1.0);
     return point;

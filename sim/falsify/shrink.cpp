@@ -9,6 +9,7 @@
 
 #include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
+#include "sim/falsify/box_constraints.h"
 #include "sim/falsify/ddmin.h"
 #include "sim/scenario/flight_parts.h"
 
@@ -87,7 +88,7 @@ class Shrinker {
   /// Moves a parameter to its neutral value if the check still fails there, and otherwise towards it by bisection.
   void neutralize(size_t parameter) {
     const std::optional<double> neutral = search_.neutral[parameter];
-    if (!neutral || is_removed(search_.sweep.parameters[parameter].path)) return;
+    if (!neutral || is_removed(search_.sweep.parameters[parameter].path, best_)) return;
     double fails = parse_number(best_.values[parameter], false).member, holds = *neutral;
     if (fails == holds || try_value(parameter, holds)) return;
     constexpr int kHalvings = 6;
@@ -109,7 +110,9 @@ class Shrinker {
       Candidate rounded = best_;
       for (std::string& value : rounded.values) {
         const double power = std::pow(10.0, decimals);
-        value = fmt::format("{}", std::round(parse_number(value, false).member * power) / power + 0.0);  // no -0
+        const double exact = parse_number(value, false).member;
+        if (is_neutral_outside(static_cast<size_t>(&value - rounded.values.data()), exact)) continue;
+        value = fmt::format("{}", std::round(exact * power) / power + 0.0);  // no -0
       }
       if (still_fails(rounded)) return;
     }
@@ -122,11 +125,37 @@ class Shrinker {
     return candidate.values[parameter] != best_.values[parameter] && still_fails(candidate);
   }
 
-  bool is_removed(const std::string& path) const {
+  bool is_removed(const std::string& path, const Candidate& candidate) const {
     for (size_t k = 0; k < items_.size(); ++k) {
-      if (path.starts_with(items_[k])) return !std::ranges::binary_search(best_.kept, k);
+      if (path.starts_with(items_[k])) return !std::ranges::binary_search(candidate.kept, k);
     }
     return false;
+  }
+
+  bool is_inside(size_t parameter, double value) const {
+    const SweepParameter& p = search_.sweep.parameters[parameter];
+    return value >= *p.from && value <= *p.to;
+  }
+  bool is_neutral_outside(size_t parameter, double value) const {
+    const std::optional<double> neutral = search_.neutral[parameter];
+    if (!neutral || is_inside(parameter, value)) return false;
+    return value == (search_.sweep.parameters[parameter].whole ? std::round(*neutral) : *neutral);
+  }
+
+  /// Returns whether the search could have flown a candidate, except for neutral values outside their ranges. A value
+  /// that the search flew may be outside by its rounding to a whole number.
+  bool is_allowed(const Candidate& candidate) const {
+    for (size_t i = 0; i < candidate.values.size(); ++i) {
+      const std::string& text = candidate.values[i];
+      if (text == best_.values[i] || is_removed(search_.sweep.parameters[i].path, candidate)) continue;
+      const double value = parse_number(text, false).member;
+      if (!is_inside(i, value) && !is_neutral_outside(i, value)) return false;
+    }
+    if (search_.config.constraints.empty()) return true;
+    std::vector<scenes::BoxConfig> boxes = boxes_at(search_, candidate.values);
+    size_t item = 0;
+    keep(boxes, candidate.kept, item);
+    return violation(search_, boxes) == 0.0;
   }
 
   Scenario scenario_of(const Candidate& candidate) const {
@@ -148,9 +177,9 @@ class Shrinker {
   }
 
   /// Flies a candidate and returns whether the check still fails; if so, the candidate becomes the best one. An invalid
-  /// scenario does not count as failing.
+  /// scenario, or one that the search excludes, does not count as failing.
   bool still_fails(const Candidate& candidate) {
-    if (shrunk_.stopped || shrunk_.trials >= max_trials_) return false;
+    if (shrunk_.stopped || shrunk_.trials >= max_trials_ || !is_allowed(candidate)) return false;
     try {
       const Scenario scenario = scenario_of(candidate);
       const std::string name = fmt::format("{:03}", shrunk_.trials);

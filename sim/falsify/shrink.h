@@ -23,7 +23,8 @@ struct Shrunk {
 
 /// Shrinks a failing flight to a simpler one in which the same check fails. It removes boxes, movers and failures
 /// (ddmin), moves each unknown towards its neutral value by bisection, ends the flight one second after the failure and
-/// rounds the unknowns to as few decimals as possible. Failing need not be monotone in a parameter, so the result is no
+/// rounds the unknowns to as few decimals as possible. Values remain in their ranges, except neutral ones, and the
+/// remaining boxes satisfy the constraints. Failing need not be monotone in a parameter, so the result is no
 /// statement about a boundary.
 /// @param failure  of the search's result. @param folder  for the trials' scenarios. @param max_trials  flights.
 Shrunk shrink(const FalsifySearch& search, const FalsifyTrial& failure, const FlightRecord& record,

@@ -31,9 +31,10 @@ struct SensorTick {
   std::function<cv::Mat(std::string_view role)> depth;
   /// As ImageChannel::labels and semantic; `moving` returns 255 for pixels of moving obstacles, otherwise 0.
   std::function<cv::Mat(std::string_view role)> labels, semantic, moving;
-  /// Returns ImageChannel::flow from the camera's last image that was not lost to this tick. Throws std::logic_error
-  /// for the first image.
+  /// Returns ImageChannel::flow of a camera from its last start_flow(), which is required, to this tick.
   std::function<cv::Mat(std::string_view role)> flow_to_here;
+  /// Makes this tick the start of the camera's later flow_to_here().
+  std::function<void(std::string_view role)> start_flow;
 };
 
 /// The properties of a flight that are fixed at its start.
@@ -66,7 +67,7 @@ class FlightWatcher {
   virtual void on_sensors(const SensorTick& /*tick*/) {}
   /// Returns the working folder of a foreign module's process, with its log; empty: a temporary one.
   virtual std::filesystem::path module_folder() const { return {}; }
-  /// Called before every other call of a flight.
+  /// Called at time 0 of a flight: in a linked flight after the take-off.
   virtual void on_start(const FlightStart& /*start*/) {}
   /// Called on every control tick, after on_sensors().
   virtual void on_row(const TrajectoryRow& /*row*/) {}

@@ -9,17 +9,45 @@
 #include "sim/config/utf8.h"
 
 namespace hedgehop::sim {
+namespace {
 
-std::string figure_words(double value, const std::string& unit) {
+constexpr int kMaxDigits = 17;  // these distinguish all doubles that are not tiny
+
+/// @param print  returns a number with some digits.
+template <class Print>
+std::string distinct_words(double value, double other, int min_digits, const Print& print) {
+  for (int digits = min_digits; digits < kMaxDigits; ++digits) {
+    std::string words = print(value, digits);
+    if (value == other || words != print(other, digits)) return words;
+  }
+  return print(value, kMaxDigits);
+}
+
+}  // namespace
+
+std::string distinct_figures(double value, double other) {
+  return distinct_words(value, other, 4,
+                        [](double number, int digits) { return fmt::format("{:.{}g}", number, digits); });
+}
+
+std::string distinct_decimals(double value, double other) {
+  return distinct_words(value, other, 3, [](double number, int digits) {
+    std::string words = fmt::format("{:.{}f}", number, digits);
+    if (words.find_first_of("123456789") == std::string::npos && words.starts_with('-')) words.erase(0, 1);
+    return words;
+  });
+}
+
+std::string figure_words(double value, const std::string& unit, double other) {
   if (!std::isfinite(value)) return "unknown";
-  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+  return fmt::format("{}{}{}", distinct_figures(value, other), unit.empty() ? "" : " ", unit);
 }
 
 std::string check_words(const CheckResult& check) {
-  std::string words = figure_words(check.value, check.unit);
+  std::string words = figure_words(check.value, check.unit, check.limit);
   if (check.t_s) words += fmt::format(" at {:.2f} s", *check.t_s);
   if (!std::isnan(check.limit))
-    words += fmt::format(", must be {} {}", check.must, figure_words(check.limit, check.unit));
+    words += fmt::format(", must be {} {}", check.must, figure_words(check.limit, check.unit, check.value));
   if (!check.passed && !check.cause.empty()) words += ": " + check.cause;
   return words;
 }

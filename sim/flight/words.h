@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -8,8 +9,16 @@
 /// Results of a flight in words, the same in the terminal, JUnit files, tables and pages.
 namespace hedgehop::sim {
 
+/// Returns a number with as many significant figures, at least 4, as distinguish it from a number printed next to it.
+std::string distinct_figures(double value, double other);
+
+/// The same with decimals, at least 3. A number that is printed as zero has no sign.
+std::string distinct_decimals(double value, double other);
+
 /// Returns a number with its unit: "0.62 m", "12"; "unknown" unless it is finite.
-std::string figure_words(double value, const std::string& unit);
+/// @param other  number next to it, as in distinct_figures(); NaN if there is none.
+std::string figure_words(double value, const std::string& unit,
+                         double other = std::numeric_limits<double>::quiet_NaN());
 
 /// Returns the value of a check, its time, its limit and, if it failed, its cause:
 /// "0.62 m at 6.40 s, must be >= 1 m: tree 8".

@@ -87,13 +87,11 @@ vision::landmarks::CameraPose estimate_pose(const Eigen::Isometry3d& X_WC,
   return pose;
 }
 
-/// Errors of the corners' coordinates, % of the distance from the first camera; 100 for a corner without a landmark.
-struct MapError {
-  double mean_percent = 0.0, worst_percent = 0.0;
-};
-MapError map_error(const LandmarkMap& map, const std::vector<Eigen::Vector3d>& corners_W,
-                   const std::map<size_t, int64_t>& id_of_corner, const Eigen::Vector3d& first_W) {
-  MapError error;
+/// Returns the mean error of the corners' coordinates, % of the distance from the first camera; 100 for a corner
+/// without a landmark.
+double mean_error_percent(const LandmarkMap& map, const std::vector<Eigen::Vector3d>& corners_W,
+                          const std::map<size_t, int64_t>& id_of_corner, const Eigen::Vector3d& first_W) {
+  double mean_percent = 0.0;
   for (size_t i = 0; i < corners_W.size(); ++i) {
     double percent = 100.0;
     const auto id = id_of_corner.find(i);
@@ -103,11 +101,10 @@ MapError map_error(const LandmarkMap& map, const std::vector<Eigen::Vector3d>& c
       const Eigen::Vector3d off = (position_W(mapped->landmark) - corners_W[i]).cwiseAbs();
       const double per_m = 100.0 / (corners_W[i] - first_W).norm();
       percent = per_m * off.mean();
-      error.worst_percent = std::max(error.worst_percent, per_m * off.maxCoeff());
     }
-    error.mean_percent += percent / static_cast<double>(corners_W.size());
+    mean_percent += percent / static_cast<double>(corners_W.size());
   }
-  return error;
+  return mean_percent;
 }
 
 }  // namespace
@@ -160,10 +157,9 @@ CornerFlightResult fly_past_corners(const CornerFlight& flight, const vision::la
     follow(map, observed.corner_of, ids, id_of_corner);
     if (watch) watch(t_s, map, id_of_corner);
 
-    const MapError error = map_error(map, flight.corners_W, id_of_corner, first_W);
-    result.error_percent.push_back(error.mean_percent);
-    result.worst_percent = error.worst_percent;
-    if (error.mean_percent > kConvergedPercent) {
+    const double error_percent = mean_error_percent(map, flight.corners_W, id_of_corner, first_W);
+    result.error_percent.push_back(error_percent);
+    if (error_percent > kConvergedPercent) {
       result.converged_s = NAN;
     } else if (std::isnan(result.converged_s)) {
       result.converged_s = t_s;

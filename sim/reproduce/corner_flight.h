@@ -38,7 +38,6 @@ struct CornerFlightResult {
   double converged_s = NAN;           ///< from then on that mean stays within 3 %; NaN if it never does
   std::vector<double> filter_ms;      ///< wall time of the filter, of every image
   size_t landmarks = 0;               ///< confirmed, at the end
-  double worst_percent = 0.0;         ///< at the end, of any coordinate of any corner
 };
 
 /// Called after every image with the map and each corner's landmark in it.

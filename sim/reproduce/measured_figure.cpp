@@ -9,6 +9,7 @@
 #include "sim/batch/flight_table.h"
 #include "sim/batch/statistics.h"
 #include "sim/config/numbers.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -111,9 +112,9 @@ MeasuredFigure measure(const FlightFigure& figure, const PaperOutcome& outcome, 
   return measured;
 }
 
-std::string figure_words(const FlightFigure& figure, const MeasuredFigure& measured) {
+std::string figure_words(const FlightFigure& figure, const MeasuredFigure& measured, double other) {
   if (std::isnan(measured.value)) return "not measured";
-  std::string words = fmt::format("{:.4g}", measured.value);
+  std::string words = distinct_figures(measured.value, other);
   if (counts(figure.statistic)) {
     const double all = figure.statistic == Statistic::share ? static_cast<double>(measured.with_figure) : 1.0;
     words = fmt::format("{:.0f} of {}", measured.value * all, measured.with_figure);

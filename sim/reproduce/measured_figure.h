@@ -33,6 +33,7 @@ struct MeasuredFigure {
 MeasuredFigure measure(const FlightFigure& figure, const PaperOutcome& outcome, const std::string& missing = "fails");
 
 /// Returns "5 of 30", "1.234", "1.234 (28 of 30 flights)", "not measured".
-std::string figure_words(const FlightFigure& figure, const MeasuredFigure& measured);
+/// @param other  bound next to it, as in distinct_figures(); NaN if there is none.
+std::string figure_words(const FlightFigure& figure, const MeasuredFigure& measured, double other);
 
 }  // namespace hedgehop::sim

@@ -49,6 +49,7 @@ class Examiner {
     if (counts(row.statistic) && parse_number(row.missing, false).kind == ParsedNumber::Kind::number) {
       fault(at + ".missing", "a number is not valid with count and share");
     }
+    if (counts(row.statistic) && row.unit == "%") fault(at + ".unit", "'%' is not valid with count and share");
   }
 
   void examine(const PaperChart& chart, const std::string& at) {

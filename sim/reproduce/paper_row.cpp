@@ -34,6 +34,12 @@ bool judged(const PaperRow& row, const MeasuredFigure& figure) {
   return figure.all_flown() && (figure.complete() || excuses_missing(row));
 }
 
+/// Returns the figure with enough digits to distinguish it from its bound.
+std::string measured_words(const PaperRow& row, const MeasuredFigure& figure) {
+  const bool low = row.at_least && figure.value < *row.at_least;
+  return figure_words(row, figure, low ? *row.at_least : row.at_most.value_or(NAN));
+}
+
 std::string command_of(const PaperRow& row, const Paper& paper) {
   if (!row.calculation.empty()) return "hedgehop reproduce " + shell_quoted(paper.key);
   std::string command;
@@ -108,13 +114,13 @@ std::string RowOutcome::required_words() const {
 
 std::string RowOutcome::modified_words() const {
   if (row.calculation.empty() && modified.required == 0) return "not in the quick run";
-  return figure_words(row, modified);
+  return measured_words(row, modified);
 }
 
 std::string RowOutcome::variant_words(const std::string& variant) const {
   const auto found = variants.find(variant);
   if (found == variants.end()) return "-";
-  return found->second.required == 0 ? "not in the quick run" : figure_words(row, found->second);
+  return found->second.required == 0 ? "not in the quick run" : measured_words(row, found->second);
 }
 
 std::string RowOutcome::flights_words() const {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "sim/flight/build.h"
 
@@ -46,21 +48,59 @@ Sections sections_of(std::string_view page) {
   return begin == std::string_view::npos && !keys ? sections : Sections{};
 }
 
-std::string origin_text(const PageFacts& facts) {
+/// Returns the origin up to its renderers.
+std::string origin_begin(const PageFacts& facts) {
   const std::string several = several_builds_line(facts);
-  return fmt::format("{}# Results\n\nBuild `{}`{}, Hedgehop {}, {}. Written by\n\n",
-                     several.empty() ? "" : "**" + several + "**\n\n", facts.build, of_commit(facts), facts.version,
-                     facts.packages);
+  return fmt::format("{}# Results\n\nBuild `{}`{}, Hedgehop {}, ", several.empty() ? "" : "**" + several + "**\n\n",
+                     facts.build, of_commit(facts), facts.version);
+}
+
+/// Returns the origin after its renderers.
+std::string origin_end(const PageFacts& facts) { return facts.packages + ". Written by\n\n"; }
+
+struct KeptPage {
+  std::set<std::string> renderers;
+  Sections sections;
+};
+
+/// Returns the content of an earlier page; empty if its build, commit, version or packages differ.
+KeptPage kept_of(const std::string& earlier, const PageFacts& facts) {
+  constexpr std::string_view kComma = ", ", kNext = ", renderer ";
+  const std::string begin = origin_begin(facts), end = origin_end(facts);
+  if (facts.quick || !earlier.starts_with(begin)) return {};
+  const size_t at = earlier.find(end, begin.size());
+  if (at == std::string::npos) return {};
+  const std::string_view renderers = std::string_view(earlier).substr(begin.size(), at - begin.size());
+  if (!renderers.empty() && !(renderers.starts_with(kNext.substr(kComma.size())) && renderers.ends_with(kComma)))
+    return {};
+  KeptPage kept{.renderers = {}, .sections = sections_of(std::string_view(earlier).substr(at + end.size()))};
+  for (size_t first = 0; first < renderers.size();) {
+    const size_t last = std::min(renderers.find(kNext, first), renderers.size() - kComma.size());
+    kept.renderers.emplace(renderers.substr(first, last - first));
+    first = last + kComma.size();
+  }
+  return kept;
+}
+
+std::vector<std::string> headings_of(const std::string& page) {
+  std::vector<std::string> headings;
+  for (size_t at = page.find(kHeading); at != std::string::npos; at = page.find(kHeading, at + 1)) {
+    const size_t begin = at + kHeading.size();
+    headings.push_back(page.substr(begin, page.find('\n', begin) - begin));
+  }
+  return headings;
 }
 
 }  // namespace
 
-PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick) {
+PageFacts page_facts(const RowsOfPapers& papers, const std::string& packages, bool quick,
+                     std::set<std::string> renderers) {
   PageFacts facts{.version = std::string(version()),
                   .build = std::string(build_identity()),
                   .commit = std::string(build_commit()),
                   .packages = packages,
                   .builds = {},
+                  .renderers = std::move(renderers),
                   .quick = quick};
   for (const auto& [paper, rows] : papers) {
     for (const RowOutcome& row : rows) facts.builds.insert(row.builds.begin(), row.builds.end());
@@ -77,16 +117,31 @@ std::string several_builds_line(const PageFacts& facts) {
   return fmt::format("Rows of {} builds: {}", facts.builds.size(), fmt::join(facts.builds, ", "));
 }
 
+std::string package_words(const PageFacts& facts) {
+  std::string words;
+  for (const std::string& renderer : facts.renderers) words += renderer + ", ";
+  return words + facts.packages;
+}
+
 std::string results_page(const RowsOfPapers& papers, const PageFacts& facts, const std::string& earlier) {
-  const std::string origin = origin_text(facts);
-  Sections sections =
-      earlier.starts_with(origin) && !facts.quick ? sections_of(earlier.substr(origin.size())) : Sections{};
-  for (const auto& [paper, rows] : papers) sections[paper.key] = "\n" + rows_text(paper, rows);
-  std::string text = origin + std::string(kCommand);
-  for (const auto& [key, section] : sections) text += " " + key;
+  KeptPage page = kept_of(earlier, facts);
+  for (const auto& [paper, rows] : papers) page.sections.erase(paper.key);
+  PageFacts all = facts;
+  if (!page.sections.empty()) all.renderers.merge(page.renderers);
+  for (const auto& [paper, rows] : papers) page.sections[paper.key] = "\n" + rows_text(paper, rows);
+  std::string text = origin_begin(facts) + package_words(all) + origin_end(facts).substr(facts.packages.size());
+  text += kCommand;
+  for (const auto& [key, section] : page.sections) text += " " + key;
   text += std::string(kOption) + (facts.quick ? std::string(kQuickRun) + "\n" : "") + kHowToRead;
-  for (const auto& [key, section] : sections) text += section;
+  for (const auto& [key, section] : page.sections) text += section;
   return text;
+}
+
+std::vector<std::string> dropped_sections(const std::string& earlier, const std::string& page) {
+  std::vector<std::string> dropped = headings_of(earlier);
+  const std::vector<std::string> left = headings_of(page);
+  std::erase_if(dropped, [&](const std::string& heading) { return std::ranges::find(left, heading) != left.end(); });
+  return dropped;
 }
 
 }  // namespace hedgehop::sim

@@ -12,7 +12,7 @@ namespace hedgehop::sim {
 /// memory. Not for OptimizeDesign, which searches.
 class DesignPoints {
  public:
-  /// Throws InputError, with the position of the design, for more than kMaxSweepPoints points.
+  /// @param sweep  of read_sweep(), which limits the points to kMaxSweepPoints; must outlive this object.
   explicit DesignPoints(const SweepConfig& sweep);
 
   size_t size() const { return size_; }

@@ -48,21 +48,23 @@ std::string sweep_command(const SlurmJob& job) {
                      shell_quoted(job.out.string()), options);
 }
 
-/// Runs a shell command and returns its output without the final newline. Throws std::runtime_error with the output in
-/// one line if the command fails.
-std::string output_of(const std::string& command) {
-  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+/// Submits a script. @param options  of sbatch, quoted. @return the number of the job, digits. Throws
+/// std::runtime_error with the messages of sbatch in one line if it fails or prints no number.
+std::string sbatch(const std::string& options, const std::filesystem::path& script) {
+  const std::string command = fmt::format("sbatch --parsable{} {}", options, shell_quoted(script.string()));
+  const std::filesystem::path messages = script.parent_path() / "sbatch.log";  // sites write notices even on success
+  FILE* const pipe = ::popen(fmt::format("{} 2>{}", command, shell_quoted(messages.string())).c_str(), "r");
   if (!pipe) throw std::runtime_error("cannot start a shell");
   std::string text;
   std::array<char, 256> buffer{};
   while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
   const int status = ::pclose(pipe);
+  const std::string number = text.substr(0, text.find_first_of(";\n"));  // "4711;cluster" of a federation
+  if (status == 0 && parse_unsigned(number)) return number;
+  text += read_file_whole(messages);
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (status != 0) {
-    for (size_t end = 0; (end = text.find('\n', end)) != std::string::npos;) text.replace(end, 1, "; ");
-    throw std::runtime_error(fmt::format("{}: {}", command, text));
-  }
-  return text;
+  for (size_t end = 0; (end = text.find('\n', end)) != std::string::npos;) text.replace(end, 1, "; ");
+  throw std::runtime_error(fmt::format("{}: {}", command, text.empty() ? "it prints no job number" : text));
 }
 
 }  // namespace
@@ -126,9 +128,12 @@ std::string submit(const SlurmJob& job) {
   const std::filesystem::path array = job.out / "slurm/array.sh", merge = job.out / "slurm/merge.sh";
   write_file_whole(array, array_script(job));
   write_file_whole(merge, merge_script(job));
-  const std::string number = output_of("sbatch --parsable " + shell_quoted(array.string()));
-  // afterany: the merge reports failures too.
-  output_of(fmt::format("sbatch --parsable --dependency=afterany:{} {}", number, shell_quoted(merge.string())));
+  const std::string number = sbatch("", array);
+  try {
+    sbatch(" --dependency=afterany:" + number, merge);  // afterany: the merge reports failures too
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("job {} is submitted, but not the merge: {}", number, error.what()));
+  }
   return number;
 }
 

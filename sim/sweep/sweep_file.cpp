@@ -26,6 +26,9 @@ std::string parameter_fault(const SweepParameter& p, const SweepDesign& design) 
   if (p.path == "seed") return "varied by 'seeds', not as a parameter";
   if (p.values.empty() && !(p.from && p.to)) return "needs 'values', or 'from' and 'to'";
   if (!p.values.empty() && (p.from || p.to || p.count > 0)) return "has both values and a range";
+  if (!p.values.empty() && (p.whole || p.scale == SweepParameter::Scale::log))
+    return "'scale' and 'whole' are for a range";
+  if (p.count > 0 && !is_grid) return "'count' is for a grid";
   if (p.values.empty() && !(*p.from < *p.to)) return "'from' must be less than 'to'";
   if (p.values.empty() && p.scale == SweepParameter::Scale::log && !(*p.from > 0.0))
     return "a log range needs 'from' > 0";

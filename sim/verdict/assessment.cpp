@@ -15,6 +15,7 @@
 #include "sim/verdict/corridor_truth.h"
 #include "sim/verdict/field_metrics.h"
 #include "sim/verdict/flight_cause.h"
+#include "sim/verdict/floor_visited.h"
 #include "sim/verdict/formula_check.h"
 #include "sim/verdict/path_check.h"
 
@@ -187,7 +188,9 @@ CheckResult evaluate(const MetricCheck& check, const Evidence& e) {
     if (metric.name != check.name) continue;
     const bool low = check.at_least && !(metric.value >= *check.at_least);
     const bool high = check.at_most && !(metric.value <= *check.at_most);
-    const bool shows_minimum = low || !check.at_most;
+    // Reports the side with the smaller margin.
+    const bool shows_minimum =
+        low || !check.at_most || (check.at_least && metric.value - *check.at_least < *check.at_most - metric.value);
     const double limit = shows_minimum ? check.at_least.value_or(kNaN) : *check.at_most;
     return {check.name,   !low && !high && std::isfinite(metric.value),
             metric.value, limit,
@@ -229,29 +232,6 @@ CheckResult evaluate(const RealtimeFactorCheck& check, const Evidence& e) {
 }
 
 }  // namespace
-
-double visited_share(const Eigen::AlignedBox2d& plan_NE_m, double cell_m, const std::vector<Eigen::Vector2d>& path_NE_m,
-                     double disc_radius_m) {
-  const Eigen::Vector2i cells = (plan_NE_m.sizes() / cell_m).array().ceil().cast<int>();
-  std::vector<char> visited(static_cast<size_t>(cells.x()) * static_cast<size_t>(cells.y()), 0);
-  const auto cell_range = [&](double center_m, double origin_m, int count) {
-    const int first = static_cast<int>(std::floor((center_m - disc_radius_m - origin_m) / cell_m));
-    const int last = static_cast<int>(std::ceil((center_m + disc_radius_m - origin_m) / cell_m));
-    return std::pair{std::clamp(first, 0, count), std::clamp(last, 0, count)};
-  };
-  for (const Eigen::Vector2d& p : path_NE_m) {
-    const auto [row_begin, row_end] = cell_range(p.x(), plan_NE_m.min().x(), cells.x());
-    const auto [col_begin, col_end] = cell_range(p.y(), plan_NE_m.min().y(), cells.y());
-    for (int row = row_begin; row < row_end; ++row) {
-      for (int col = col_begin; col < col_end; ++col) {
-        const Eigen::Vector2d center = plan_NE_m.min() + cell_m * Eigen::Vector2d(row + 0.5, col + 0.5);
-        if ((center - p).norm() <= disc_radius_m) visited[static_cast<size_t>(row * cells.y() + col)] = 1;
-      }
-    }
-  }
-  const auto count = std::count(visited.begin(), visited.end(), 1);
-  return visited.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(visited.size());
-}
 
 std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,
                                          double rotor_radius_m) {

@@ -22,10 +22,4 @@ void assess(const Scenario& scenario, const scenes::Scene& scene, const std::vec
 std::vector<CheckResult> evaluate_checks(const Scenario& scenario, const Flight& flight, const scenes::Scene& scene,
                                          double rotor_radius_m);
 
-/// Returns the share of the square cells of a plan whose centers a disc covers while it moves along a path, 0..1.
-/// @param plan_NE_m  north, east extent. Cells start at its south-west corner; those cut by the other edges count too.
-/// @param path_NE_m  positions, dense enough to represent the curve.
-double visited_share(const Eigen::AlignedBox2d& plan_NE_m, double cell_m, const std::vector<Eigen::Vector2d>& path_NE_m,
-                     double disc_radius_m);
-
 }  // namespace hedgehop::sim

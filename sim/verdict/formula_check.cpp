@@ -13,6 +13,14 @@
 namespace hedgehop::sim {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns NaN if either number is NaN, which std::min and std::max do not.
+template <class Operation>
+double of_known(double a, double b, const Operation& operation) {
+  return std::isnan(a) || std::isnan(b) ? kUnknown : operation(a, b);
+}
+
 double evaluate(const Expression& e, const SampledSignals& signals, size_t sample) {
   const auto part = [&](size_t i) { return evaluate(e.of[i], signals, sample); };
   switch (e.kind) {
@@ -33,9 +41,9 @@ double evaluate(const Expression& e, const SampledSignals& signals, size_t sampl
     case Expression::Kind::abs:
       return std::abs(part(0));
     case Expression::Kind::min:
-      return std::min(part(0), part(1));
+      return of_known(part(0), part(1), [](double a, double b) { return std::min(a, b); });
     case Expression::Kind::max:
-      return std::max(part(0), part(1));
+      return of_known(part(0), part(1), [](double a, double b) { return std::max(a, b); });
   }
   return 0.0;
 }
@@ -60,25 +68,28 @@ class Evaluator {
   explicit Evaluator(const SampledSignals& signals) : signals_(signals) {}
   size_t comparisons() const { return comparisons_; }
 
-  Robustness of(const Formula& formula) {
+  /// @param unknown  robustness of a comparison with NaN: that which makes the whole formula fail.
+  Robustness of(const Formula& formula, double unknown = -kInfinity) {
+    const auto part = [&](size_t i) { return of(formula.of[i], unknown); };
+    const auto negated_part = [&] { return negated(of(formula.of[0], -unknown)); };
     switch (formula.kind) {
       case Formula::Kind::at_least_zero:
       case Formula::Kind::has_status:
-        return of_samples(formula);
+        return of_samples(formula, unknown);
       case Formula::Kind::negation:
-        return negated(of(formula.of[0]));
+        return negated_part();
       case Formula::Kind::conjunction:
-        return min(of(formula.of[0]), of(formula.of[1]));
+        return min(part(0), part(1));
       case Formula::Kind::disjunction:
-        return max(of(formula.of[0]), of(formula.of[1]));
+        return max(part(0), part(1));
       case Formula::Kind::implication:
-        return max(negated(of(formula.of[0])), of(formula.of[1]));
+        return max(negated_part(), part(1));
       case Formula::Kind::always:
-        return window_min(of(formula.of[0]), window(formula.interval, signals_.dt_s));
+        return window_min(part(0), window(formula.interval, signals_.dt_s));
       case Formula::Kind::eventually:
-        return window_max(of(formula.of[0]), window(formula.interval, signals_.dt_s));
+        return window_max(part(0), window(formula.interval, signals_.dt_s));
       case Formula::Kind::until:
-        return until(of(formula.of[0]), of(formula.of[1]), window(formula.interval, signals_.dt_s));
+        return until(part(0), part(1), window(formula.interval, signals_.dt_s));
     }
     return {};
   }
@@ -88,14 +99,14 @@ class Evaluator {
     return {std::vector<double>(signals_.samples, value), std::vector<size_t>(signals_.samples, 0), 0};
   }
 
-  Robustness of_samples(const Formula& formula) const {
+  Robustness of_samples(const Formula& formula, double unknown) const {
     Robustness r = filled(0.0);
     for (size_t i = 0; i < signals_.samples; ++i) {
       if (formula.kind == Formula::Kind::has_status) {
         r.value[i] = signals_.status.at(i) == formula.status ? kInfinity : -kInfinity;
       } else {
         const double margin = evaluate(formula.margin, signals_, i);
-        r.value[i] = std::isnan(margin) ? -kInfinity : margin;
+        r.value[i] = std::isnan(margin) ? unknown : margin;
       }
       r.decisive[i] = i;
     }
@@ -203,9 +214,9 @@ void add_motion(const TrajectoryRow& row, const Scenario& scenario, SampledSigna
   add("tilt", degrees(dynamics::tilt_rad(row.rpy_true)));
   add("wind", row.wind_W.norm());
   const Eigen::Vector2d v_NE = row.v_WB_W_true.head<2>();
-  add("tracking_error", row.v_WB_W_cmd ? (*row.v_WB_W_cmd - v_NE).norm() : 0.0);
+  add("tracking_error", row.v_WB_W_cmd ? (*row.v_WB_W_cmd - v_NE).norm() : kUnknown);
   add("estimation_error", (row.p_WB_est - row.p_WB_true).norm());
-  add("goal_distance", scenario.goal ? (row.p_WB_true - scenario.goal->p_WG()).head<2>().norm() : 0.0);
+  add("goal_distance", scenario.goal ? (row.p_WB_true - scenario.goal->p_WG()).head<2>().norm() : kUnknown);
 }
 
 /// Returns the distances at the control ticks, including the closest approach between them.
@@ -254,12 +265,16 @@ SampledSignals flight_signals(const Scenario& scenario, const Flight& flight) {
 
 CheckResult evaluate_formula(const FormulaCheck& check, const Scenario& scenario, const Flight& flight) {
   const SampledSignals signals = flight_signals(scenario, flight);
-  CheckResult result{check.name, false, std::numeric_limits<double>::quiet_NaN(), 0.0, "", ">="};
+  CheckResult result{check.name, false, kUnknown, 0.0, "", ">="};
   if (signals.samples == 0) return result;
-  const Robustness r = robustness(parse_formula(check.formula), signals);
+  const Formula formula = parse_formula(check.formula);
+  const Robustness r = robustness(formula, signals);
   result.value = r.value[0];
   result.passed = result.value >= 0.0;
-  result.t_s = flight.trajectory[r.decisive[0]].t_s;
+  const TrajectoryRow& decisive = flight.trajectory[r.decisive[0]];
+  result.t_s = decisive.t_s;
+  if (result.value == -kInfinity && !decisive.v_WB_W_cmd && uses_signal(formula, "tracking_error"))
+    result.cause = "no velocity was commanded";
   return result;
 }
 

@@ -29,16 +29,17 @@ struct Robustness {
 };
 
 /// Returns the robustness of a formula, in time linear in the samples and the length of the formula. Intervals end at
-/// the last sample: over an empty interval, `always` holds (infinity), `eventually` and `until` do not. A comparison of
-/// NaN fails. Source: [DonzeMaler2010] sec. on quantitative semantics; [DonzeFerrereMaler2013] sec. on until; windows
-/// by [Lemire2006] sec. on the streaming algorithm, from the end. Differs: in f until g, f need not hold at the time of
-/// g.
+/// the last sample: over an empty interval, `always` holds (infinity), `eventually` and `until` do not. A comparison
+/// with NaN counts against the whole formula: it fails, and so does its negation.
+/// Source: [DonzeMaler2010] sec. on quantitative semantics; [DonzeFerrereMaler2013] sec. on until; windows by
+/// [Lemire2006] sec. on the streaming algorithm, from the end. Differs: in f until g, f need not hold at the time of g.
 /// @param signals  must contain every signal of the formula; otherwise throws std::out_of_range.
 Robustness robustness(const Formula& formula, const SampledSignals& signals);
 
-/// Returns the signals of a flight at its control ticks, as formula_signals() lists them. All are true values. The
-/// closest approaches, from every physics tick, count at the control tick before, so that `always (clearance >= c)`
-/// agrees with the check `min_clearance`.
+/// Returns the signals of a flight at its control ticks, as formula_signals() lists them. All are true values; NaN if
+/// unknown: `goal_distance` without a goal, `tracking_error` without a commanded velocity. The closest approaches, from
+/// every physics tick, count at the control tick before, so that `always (clearance >= c)` agrees with the check
+/// `min_clearance`.
 SampledSignals flight_signals(const Scenario& scenario, const Flight& flight);
 
 /// Returns whether a formula holds from the start of a flight, its robustness, and the time that determined it.

@@ -18,6 +18,7 @@
 #include "scenes/mesh/texture_image.h"
 #include "scenes/terrain/heightmap.h"
 #include "sim/batch/campaign_file.h"
+#include "sim/batch/earlier_batch.h"
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"

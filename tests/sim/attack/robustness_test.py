@@ -35,7 +35,7 @@ def signals_of(flight, goal, rate_hz):
         "climb": [-v for v in column("v_down_mps")],
         "roll": [math.degrees(a) for a in column("roll_rad")], "pitch": [math.degrees(a) for a in column("pitch_rad")],
         "tilt": [math.degrees(math.acos(max(-1.0, min(1.0, math.cos(r["roll_rad"]) * math.cos(r["pitch_rad"]))))) for r in rows],
-        "tracking_error": [0.0 if r["cmd_v_north_mps"] is None else
+        "tracking_error": [math.nan if r["cmd_v_north_mps"] is None else
                            math.hypot(r["cmd_v_north_mps"] - r["v_north_mps"], r["cmd_v_east_mps"] - r["v_east_mps"]) for r in rows],
         "estimation_error": [math.dist([r[f"est_{axis}_m"] for axis in ("north", "east", "down")],
                                        [r[f"{axis}_m"] for axis in ("north", "east", "down")]) for r in rows],
@@ -50,7 +50,7 @@ def draw_formula(depth, signals, draw):
         if draw.random() < 0.1:
             return ("status", draw.choice(["cruise", "avoid"]))
         name = draw.choice(sorted(set(signals) - {"status"}))
-        value = draw.choice(signals[name])
+        value = draw.choice([value for value in signals[name] if not math.isnan(value)] or [0.0])
         return ("compare", name, draw.choice(["<", "<=", ">", ">="]), round(value + draw.choice([0, draw.uniform(-1, 1)]), 6))
     kind = draw.choice(["not", "and", "or", "->", "always", "eventually", "until"])
     parts = [draw_formula(depth - 1, signals, draw) for _ in range(1 if kind in ("not", "always", "eventually") else 2)]
@@ -84,14 +84,15 @@ def ticks_ahead(formula):
     return inside + (formula[2] if len(formula) > 2 and formula[3] is None else formula[3] if len(formula) > 2 else 0)
 
 
-def robustness(formula, signals):
-    """Returns the robustness at every tick, by the definition."""
+def robustness(formula, signals, unknown=-math.inf):
+    """Returns the robustness at every tick, by the definition; `unknown` is that of a comparison with NaN."""
     kind, count = formula[0], len(signals["north"])
     if kind == "status":
         return [math.inf if word == formula[1] else -math.inf for word in signals["status"]]
     if kind == "compare":
-        return [value - formula[3] if formula[2] in (">", ">=") else formula[3] - value for value in signals[formula[1]]]
-    parts = [robustness(part, signals) for part in formula[1]]
+        margins = [value - formula[3] if formula[2] in (">", ">=") else formula[3] - value for value in signals[formula[1]]]
+        return [unknown if math.isnan(margin) else margin for margin in margins]
+    parts = [robustness(part, signals, -unknown if i == 0 and kind in ("not", "->") else unknown) for i, part in enumerate(formula[1])]
     if kind == "not":
         return [-value for value in parts[0]]
     if kind in ("and", "or", "->"):

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -39,6 +41,31 @@ TEST(RequireDecidable, NamesTheNumberOfFlightsThatCouldShowTheRate) {
 TEST(RequireDecidable, RefusesARateThatNoNumberOfFlightsShows) {
   EXPECT_THAT(refusal(1.0, 1'000'000), HasSubstr("no finite number of flights"));
   EXPECT_THAT(refusal(0.99999999999, 10), HasSubstr("it takes"));
+}
+
+TEST(Judge, PrintsAnIntervalThatMissesItsLimitWithMoreDecimals) {
+  const GroupSummary group{.group = "city", .success = {.successes = 95, .trials = 100}};  // from 0.88825
+  const GroupVerdict verdict = judge({SuccessRateCheck{.at_least = 0.8883}}, {group}).at(0);
+  EXPECT_FALSE(verdict.passed);
+  EXPECT_THAT(verdict.words, HasSubstr("0.8882 to 0.978 must begin at 0.8883 or above"));
+}
+
+/// Fisher's test of 11 of 15 after 15 of 15 has the probability 0.0498.
+TEST(Judge, PassedComparisonWithAnEarlierBatchDoesNotRuleOutALoss) {
+  const TemporaryFolder folder;
+  std::string flights;
+  for (int i = 0; i < 15; ++i)
+    flights += std::string(i > 0 ? "," : "") + R"({"group": "city", "status": "flown", "passed": true})";
+  write_file_whole(folder.path() / "batch.json", R"({"groups": [], "flights": [)" + flights + "]}");
+  const NoWorseCheck check{.than = (folder.path() / "batch.json").string()};
+  const auto verdict_of_successes = [&](int64_t successes) {
+    return judge({check}, {{.group = "city", .success = {.successes = successes, .trials = 15}}}).at(0);
+  };
+  EXPECT_FALSE(verdict_of_successes(11).passed);
+  EXPECT_THAT(verdict_of_successes(11).words, HasSubstr("probability 0.0498, so it has become worse"));
+  EXPECT_TRUE(verdict_of_successes(15).passed);
+  EXPECT_THAT(verdict_of_successes(15).words,
+              HasSubstr("probability 1.000, so a loss is not shown; 'margin' can rule one out"));
 }
 
 TEST(VerdictOf, IsOneDecisionForEveryRecord) {

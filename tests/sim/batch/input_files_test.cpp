@@ -1,6 +1,7 @@
 #include "sim/batch/input_files.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "sim/config/whole_file.h"
 #include "tests/sim/record/temporary_folder.h"
@@ -71,6 +72,28 @@ TEST(ModulePaths, OfOtherOverridesStay) {
   const std::vector<std::string> others = {"avoidance.speed=1", "name=plugin", "vehicle.use=plugin: x.so",
                                            "avoidance={module: zig_zag}", "broken"};
   EXPECT_EQ(with_module_paths(others, "folder"), others);
+}
+
+TEST(FilesOfAFolder, AreReadOnceIfALinkLeadsBack) {
+  const MixedFolder folder;
+  std::filesystem::create_directory_symlink(".", folder.path() / "sub/loop");
+  const FolderFiles files = files_of(folder.path(), true);
+  EXPECT_THAT(folder.names(files), ElementsAre("a.yaml", "b.yml", "sub/c.YAML", "sub/deep/d.yaml"));
+  EXPECT_THAT(left_out_words(files, {}), HasSubstr("sub/loop/ (a link; name the folder itself)"));
+}
+
+TEST(FilesOfAFolder, HaveAFaultForEachUnreadableSubfolder) {
+  const MixedFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(folder.path() / "sub/deep", std::filesystem::perms::none);
+  const bool is_root = geteuid() == 0;  // root may read every folder
+  constexpr uid_t kNobody = 65534;
+  ASSERT_EQ(is_root ? seteuid(kNobody) : 0, 0);
+  const FolderFiles files = files_of(folder.path(), true);
+  ASSERT_EQ(is_root ? seteuid(0) : 0, 0);
+  std::filesystem::permissions(folder.path() / "sub/deep", std::filesystem::perms::all);
+  EXPECT_THAT(folder.names(files), ElementsAre("a.yaml", "b.yml", "sub/c.YAML"));
+  EXPECT_THAT(files.faults, ElementsAre(HasSubstr("sub/deep: cannot read this folder: Permission denied")));
 }
 
 }  // namespace

@@ -95,6 +95,18 @@ class Validate(Program):
         self.assertIn("3 files: 1 valid, 2 invalid", end.stdout)
         self.assertIn("sub/ (1 YAML file; use --recursive)", end.stderr)
 
+    def test_a_campaign_that_batch_refuses_is_invalid(self):
+        campaign = "tuned_on: none\nflights: [{scenario: scenarios/a.yaml, seeds: '1:3'}]\n"
+        self.write("campaign.yaml", campaign + "checks: [{check: success_rate, at_least: 0.4}]\n")
+        self.hedgehop("validate campaign.yaml")
+        for line, words in (("plan: missing.yaml", "missing.yaml"),
+                            ("checks: [{check: no_worse, than: missing.json}]", "missing.json"),
+                            ("checks: [{check: no_worse, than: b.json, confidence: 0.4}]", "must be >= 0.5"),
+                            ("checks: [{check: success_rate, at_least: 1.0}]", "a rate of 1 cannot be shown"),
+                            ("checks: [{check: success_rate, at_least: 0.9}]", "3 of 3 flights that pass cannot show")):
+            self.write("campaign.yaml", campaign + line + "\n")
+            self.assertIn(words, self.hedgehop("validate campaign.yaml", status=2).stderr)
+
     def test_a_sweep_is_validated_as_a_sweep(self):
         self.write("sweep.yaml", SWEEP.replace("avoidance.speed", "avoidance.sped"))
         self.assertIn("unknown key 'sped' in 'avoidance'", self.hedgehop("validate sweep.yaml", status=2).stderr)
@@ -207,6 +219,20 @@ class SweepOptions(Program):
         self.write("bin/sbatch", "#!/bin/sh\necho first >&2\necho second >&2\nexit 1\n").chmod(0o755)
         end = self.hedgehop("sweep sweep.yaml --on slurm", status=3, before=["env", f"PATH={self.folder}/bin:/usr/bin:/bin"])
         self.assertRegex(end.stderr, r"first; second\n$")
+
+
+    def test_the_number_of_a_slurm_job_is_found_among_notices(self):
+        self.write("bin/sbatch", "#!/bin/sh\necho 'sbatch: Setting account: lab' >&2\necho \"$*\" >>calls\necho '4711;alpha'\n").chmod(0o755)
+        end = self.hedgehop("sweep sweep.yaml --on slurm", before=["env", f"PATH={self.folder}/bin:/usr/bin:/bin"])
+        self.assertIn("4711", end.stdout)
+        array, merge = (self.folder / "calls").read_text().splitlines()
+        self.assertRegex(array, r"^--parsable \S+array.sh$")
+        self.assertRegex(merge, r"^--parsable --dependency=afterany:4711 \S+merge.sh$")
+
+    def test_a_slurm_job_is_the_whole_sweep(self):
+        for part in ("--missing", "--merge", "--shard 1/2"):
+            end = self.hedgehop(f"sweep sweep.yaml --on slurm --dry-run {part}", status=2)
+            self.assertIn("--on slurm submits the whole sweep: no --shard, --merge or --missing", end.stderr)
 
 
 class MissedGoals(Program):

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/sim/cli/ask.h"
 
@@ -66,6 +68,27 @@ TEST(NumberOptions, ReadDecimally) {
           " --seed 010 --set duration=0.02 --set 'checks=[]' --renderer tiles --no-video --json --out " +
           testing::TempDir() + "/decimal_number");
   EXPECT_THAT(answer.text, HasSubstr("\"seed\": 10,"));
+}
+
+TEST(Options, ThatWouldHaveNoEffectAreRefused) {
+  const std::string vehicle = HEDGEHOP_SOURCE_DIR "/configs/vehicles/hummingbird.yaml";
+  const std::string sweep = "sweep " HEDGEHOP_SOURCE_DIR "/configs/sweeps/garratt2009_room_gains.yaml ";
+  const std::string fit = "identify " + vehicle + " --log x.csv --fit rotor.drag=0:1 ";
+  const std::vector<std::pair<std::string, std::string>> refused = {
+      {"batch " + kScenario + " --margin 0.1", "--no-worse-than"},
+      {sweep + "--tasks 4", "--on"},
+      {sweep + "--missing --merge", "--merge"},
+      {sweep + "--from out", "--merge"},
+      {fit + "--plot x.html", "--plot"},
+      {fit + "--csv", "--csv"},
+      {fit + "--size 1deg", "--size"},
+      {fit + "--speed 3", "--speed"},
+      {"dataset " + kScenario + " --out " + testing::TempDir() + "/none --images 1 --tilt nan", "'nan' is no finite"}};
+  for (const auto& [command, words] : refused) {
+    const Answer answer = ask(command);
+    EXPECT_EQ(answer.status, kBadInput) << command;
+    EXPECT_THAT(answer.text, HasSubstr(words)) << command;
+  }
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class Fields(unittest.TestCase):
         for name, x, y in (("m1_test_0", 2, 20), ("m1_test_1", 5, 25), ("m2_test_0", -3, 30)):
             (self.folder / "tests" / f"{name}.yaml").write_text(BOXES.format(x=x, y=y))
         # The script writes into its own source tree.
-        for part in ("scripts/fields", "configs", "docs/validation.md"):
+        for part in ("scripts/fields", "scripts/generated_tables.py", "configs", "docs/validation.md"):
             copy, whole = self.folder / "source" / part, SOURCE / part
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copytree(whole, copy) if whole.is_dir() else shutil.copy(whole, copy)
@@ -60,6 +60,12 @@ class Fields(unittest.TestCase):
         self.assertIn("the folders lack barn_world_3", self.fields("prepare", "out", "--aerialist", "tests", "--sample", "list.yaml", status=1))
         self.assertIn("'zig_zag' is no module that flies to a goal; valid: all, go_to_goal, ",
                       self.fields("prepare", "out", "--aerialist", "tests", "--modules", "zig_zag", status=1))
+
+    def test_a_folder_without_fields_is_an_error(self):
+        (self.folder / "other").mkdir()
+        for option, file in (("barn", "world_*.world"), ("agile", "easy|medium|hard/environment_*.csv"), ("competition", "static_obstacles.csv")):
+            self.assertIn(f"--{option} other has no file {file}", self.fields("prepare", "out", "--aerialist", "tests", f"--{option}", "other", status=1))
+        self.assertIn("no folder is given; valid: --aerialist, --barn, --agile, --competition", self.fields("prepare", "out", status=1))
 
     def test_sample_takes_the_median_of_each_stratum(self):
         (self.folder / "out").mkdir()

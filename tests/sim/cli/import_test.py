@@ -144,6 +144,8 @@ class Fields(unittest.TestCase):
         straight, turning = self.moving_rows(2.5)
         self.assertAlmostEqual(float(straight["north_m"]), 3.0 - 5.0 * 0.5, delta=SAME)  # 1 s there, 1 s back, 0.5 s there
         self.assertAlmostEqual(float(turning["down_m"]), -1.5, delta=SAME)  # 2 s, then again from the start
+        capital = self.write("capital.yaml", DYNAMIC.replace("true", "True").replace("false", "False"))
+        self.assertEqual(self.solids("flightmare", capital, "--time", 2.5), [straight, turning])
 
     def test_sdf_cylinders_are_scaled(self):
         places = [(-4.5, 3.25), (0.125, 7.5), (2.0, -1.0)]
@@ -167,6 +169,7 @@ class Fields(unittest.TestCase):
             (("flightmare", self.write("b.csv", STATIC + "\nrpg_box01, 1, 2\n")), "b.csv:3: expected 11 values"),
             (("flightmare", self.write("c.csv", STATIC.replace("rpg_box01", "rpg_gate"))), "prefab 'rpg_gate' is unknown; valid: rpg_box01"),
             (("flightmare", self.write("d.yaml", DYNAMIC.replace("N: 2", "N: 3"))), "N is 3, but the file has 2 objects"),
+            (("flightmare", self.write("f.yaml", DYNAMIC.replace("true", "yes"))), "f.yaml:3:35: expected true or false, got 'yes'"),
             (("flightmare", self.write("e.yaml", DYNAMIC)), "turning.csv': line 1: expected 8 values"),
         ]
         for arguments, fault in cases:

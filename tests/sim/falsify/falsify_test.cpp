@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "sim/falsify/box_constraints.h"
+#include "sim/falsify/counterexample.h"
 #include "sim/record/table.h"
 #include "tests/sim/batch/campaign_folder.h"
 
@@ -152,6 +154,54 @@ TEST_F(Falsify, RejectsTheFolderOfAnotherSearch) {
   const CommandEnd end = folder.hedgehop("falsify search.yaml --out out");
   EXPECT_EQ(end.status, 2);
   EXPECT_THAT(end.err, HasSubstr("out: holds a search of another file"));
+}
+
+TEST_F(Falsify, CountsOnlyPointsThatViolateAConstraintAsInfeasible) {
+  const CommandEnd end = folder.hedgehop(
+      "falsify search.yaml --out out --set constraints=[] --set 'boxes.east=[8,14]' --set parameters=[]");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(folder.json("out/falsify.json")["infeasible_points"], 0);
+}
+
+TEST_F(Falsify, ReductionKeepsRangesAndConstraints) {
+  const std::vector<std::string> set = {"constraints=[box_on_route]", "boxes.north=[4.3,16]", "boxes.heading=[0,0]"};
+  const FalsifySearch search = read_falsify(folder.path() / "search.yaml", set);
+  // North, east, length and width of each box, then the wind: the first box is on the route.
+  const FalsifyTrial trial{.coordinates = {},
+                           .values = {"4.4", "0.2", "2.5", "2.5", "12.3", "12.4", "2.5", "2.5", "3.3"},
+                           .flown = true,
+                           .weakest = {"keeps_clear", -1.0}};
+  FlightRecord failing{.status = FlightRecord::Status::flown};
+  failing.order.seed = 1101;
+  failing.result.emplace().flight.outcome = Outcome::timeout;
+  failing.result->flight.checks = {
+      {.name = "keeps_clear", .passed = false, .value = -1.0, .limit = 0.0, .must = ">=", .t_s = 3.0}};
+  const FlyOne every_flight_fails = [&](const Order& order) {
+    FlightRecord record = failing;
+    record.order = order;
+    return std::optional(record);
+  };
+  const Shrunk shrunk = shrink(search, trial, failing, folder.path() / "shrink", 60, every_flight_fails);
+  const auto boxes = std::visit([](const auto& scene) { return scene.added.boxes; }, shrunk.scenario.scene);
+  ASSERT_EQ(boxes.size(), 1u) << "without a box, none is on the route";
+  EXPECT_EQ(violation(search, boxes), 0.0);
+  EXPECT_DOUBLE_EQ(boxes[0].north_m, 4.4) << "4 is outside the range";
+}
+
+TEST_F(Falsify, ARepeatThatWasNotFlownIsNull) {
+  const FalsifySearch search = read_falsify(folder.path() / "search.yaml");
+  FalsifyResult result;
+  result.trials.resize(1);
+  result.trials[0].weakest = {"keeps_clear", -1.0};
+  result.records.resize(1);
+  const auto repeat = [&](Repeat repeats) {
+    Counterexample found;
+    found.repeats = repeats;
+    return nlohmann::json::parse(falsify_json(search, result, {found}))["counterexamples"][0]["repeats"];
+  };
+  EXPECT_EQ(repeat(Repeat::equal), true);
+  EXPECT_EQ(repeat(Repeat::differs), false);
+  EXPECT_TRUE(repeat(Repeat::not_flown).is_null());
 }
 
 }  // namespace

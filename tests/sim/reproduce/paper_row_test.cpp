@@ -143,7 +143,9 @@ TEST_F(PaperRows, HaveOneUnitAndPercentIsAHundredTimesAShare) {
   const RowOutcome share = row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0781)});
   EXPECT_EQ(share.holds, true);
   EXPECT_EQ(share.modified_words(), "7.81");
-  EXPECT_EQ(row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.0801)}).holds, false);
+  const RowOutcome above = row(worst, {with_metric(flown("a", 1, "reached", 1.0), 0.080001)});
+  EXPECT_EQ(above.holds, false);
+  EXPECT_EQ(above.modified_words(), "8.0001");
   hits.statistic = Statistic::share;
   hits.at_most = 0.25;
   EXPECT_EQ(row(hits, {flown("a", 1, "reached", 1.0)}).required_words(), "at most 25 %");

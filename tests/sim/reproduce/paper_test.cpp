@@ -86,6 +86,12 @@ TEST(PaperFile, ContradictionsAreRefused) {
               Contains(HasSubstr("two flights are called 'a'")));
   EXPECT_THAT(faults_of(flights + "rows: [{claim: w, flights: [a], column: outcome, statistic: count}]"),
               Contains(HasSubstr("needs 'is'")));
+  for (const std::string statistic : {"count", "share"}) {
+    EXPECT_THAT(
+        faults_of(flights + "rows: [{claim: w, flights: [a], column: outcome, is: reached, unit: '%', statistic: " +
+                  statistic + "}]"),
+        Contains(HasSubstr("'%' is not valid with count and share")));
+  }
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: points, label: l, x: [1, 2], y: [1]}]}]"),
               Contains(HasSubstr("2 x values, but 1 y values")));
   EXPECT_THAT(faults_of(flights + "charts: [{title: t, series: [{from: paths, label: l, flights: a}, "

@@ -97,6 +97,9 @@ TEST_F(Reproduce, NamesBadInputAndWritesNoFile) {
   const CommandEnd bad = folder.hedgehop("reproduce bad.yaml --out out");
   EXPECT_EQ(bad.status, 2);
   EXPECT_THAT(bad.err, HasSubstr("bad.yaml:3"));
+  const CommandEnd twice = folder.hedgehop("reproduce small.yaml ./small.yaml --out out");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two papers are called 'small': small.yaml, ./small.yaml"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <regex>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "sim/config/whole_file.h"
 #include "sim/flight/build.h"
@@ -141,6 +143,25 @@ TEST(ResultsPage, ListsDeviationsOfThePublishedLaw) {
   const std::string page = results_page(papers, page_facts(papers, "Mesa 1", false));
   EXPECT_THAT(page, HasSubstr("- images of another camera\n"));
   EXPECT_THAT(page, HasSubstr("the law was changed after a look"));
+}
+
+TEST(ResultsPage, KeepsPapersThatOtherRenderersDrewAndNamesAllRenderers) {
+  const RowsOfPapers all = one_row_of({"a2001", "b2002"});
+  const auto page = [&](const RowsOfPapers& papers, std::set<std::string> renderers, const std::string& earlier) {
+    return results_page(papers, page_facts(papers, "OpenCV 4", false, std::move(renderers)), earlier);
+  };
+  const std::string first = page({all[0]}, {"renderer tiles"}, "");
+  EXPECT_THAT(first, HasSubstr(", renderer tiles, OpenCV 4. Written by\n"));
+  const std::string both = page({all[1]}, {"renderer Mesa 22.3.6"}, first);
+  EXPECT_EQ(both, page(all, {"renderer Mesa 22.3.6", "renderer tiles"}, ""));
+  EXPECT_EQ(page({all[1]}, {}, both), both) << "no flight has a result";
+  EXPECT_THAT(dropped_sections(first, both), IsEmpty());
+}
+
+TEST(ResultsPage, ListsTheSectionsThatItDrops) {
+  const RowsOfPapers all = one_row_of({"a2001", "b2002"});
+  const std::string page = page_of_papers({all[0]}, page_of_papers({all[1]}, "", "Mesa 2"));
+  EXPECT_THAT(dropped_sections(page_of_papers({all[1]}, "", "Mesa 2"), page), ElementsAre("b2002 [S]"));
 }
 
 }  // namespace

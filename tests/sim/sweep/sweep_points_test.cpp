@@ -66,6 +66,16 @@ TEST_F(PointsOfASweep, WithAParameterWithoutEffectAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+TEST_F(PointsOfASweep, WithAKeyWithoutEffectAreRefused) {
+  EXPECT_THAT(sweep("  - {path: avoidance.speed, values: [1, 2], scale: log, whole: true}\n").err,
+              HasSubstr("s.yaml:5:5: 'avoidance.speed': 'scale' and 'whole' are for a range"));
+  folder.write("s.yaml",
+               "scenario: tiny.yaml\ndesign: {type: random, points: 3}\n"
+               "parameters:\n  - {path: avoidance.speed, from: 1, to: 2, count: 7}\n");
+  EXPECT_THAT(folder.hedgehop("sweep s.yaml --out out").err,
+              HasSubstr("s.yaml:4:5: 'avoidance.speed': 'count' is for a grid"));
+}
+
 TEST_F(PointsOfASweep, WithMapsAndNullAreFlown) {
   const CommandEnd end = sweep(
       "  - {path: start, values: [{north: 0, east: 0, altitude: 1}, {north: 0.1, east: 0, altitude: 1.1}]}\n"

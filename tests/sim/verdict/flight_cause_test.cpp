@@ -144,6 +144,19 @@ TEST(CheckCause, OfClearanceNamesTheObstacle) {
   EXPECT_EQ(check_words(checks[1]), "58 m, must be <= 5 m: distance at the end; minimum 58.0 m at 4.0 s");
 }
 
+TEST(CheckWords, DistinguishAValueFromItsLimit) {
+  const auto words = [](double value, const char* must) {
+    return check_words(
+        {.name = "max_speed", .passed = false, .value = value, .limit = 2.038, .unit = "m/s", .must = must});
+  };
+  EXPECT_EQ(words(2.03804, "<="), "2.03804 m/s, must be <= 2.038 m/s");
+  EXPECT_EQ(words(2.0379, ">="), "2.0379 m/s, must be >= 2.038 m/s");
+  EXPECT_EQ(words(2.51234, "<="), "2.512 m/s, must be <= 2.038 m/s");
+  EXPECT_EQ(words(2.038, "<="), "2.038 m/s, must be <= 2.038 m/s");
+  EXPECT_EQ(distinct_decimals(0.04993, 0.05), "0.0499");
+  EXPECT_EQ(distinct_decimals(-0.0001, -0.1), "0.000");
+}
+
 TEST(CheckCause, OfAPathIsThePlaceAndTimeAtWhichTheFlightLeftIt) {
   const TemporaryFolder folder;
   StuckFlight f;

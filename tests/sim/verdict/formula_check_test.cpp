@@ -82,6 +82,21 @@ TEST(FormulaCheck, ProvidesEverySignalOfFormulas) {
   EXPECT_EQ(signals.status.size(), signals.samples);
 }
 
+TEST(FormulaCheck, TrackingErrorWithoutACommandedVelocityFailsEveryFormula) {
+  PassingFlight f;
+  for (TrajectoryRow& row : f.flight.trajectory) row.v_WB_W_cmd.reset();
+  for (const char* formula :
+       {"always (tracking_error < 1)", "eventually (tracking_error < 1)", "not eventually (tracking_error > 1)",
+        "not (tracking_error < 1)", "not (tracking_error > 1)", "tracking_error > 1 -> tracking_error < 9",
+        "(speed < 9) until (tracking_error < 1)", "(tracking_error < 1) until[1,2] (speed < 9)",
+        "min(speed, tracking_error) < 9", "max(tracking_error, speed) > 0", "abs(tracking_error) >= 0"}) {
+    const CheckResult result = f.check(formula);
+    EXPECT_FALSE(result.passed) << formula;
+    EXPECT_EQ(result.cause, "no velocity was commanded") << formula;
+  }
+  EXPECT_TRUE(f.check("always (speed < 9 or tracking_error < 1)").passed);
+}
+
 TEST(FormulaCheck, FlightWithoutARowFails) {
   PassingFlight f;
   f.flight.trajectory.clear();

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <random>
+#include <string>
 
 #include "sim/libm/random.h"
 
@@ -95,6 +97,17 @@ TEST(PathDistance, BandComparesAnEarlyEndWithTheRestOfTheReference) {
   flown.assign(reference.begin(), reference.begin() + 61);
   EXPECT_NEAR(max_deviation_m(flown, reference), 8.0, 1e-12);
   EXPECT_NEAR(max_deviation_m(reference, flown), 8.0, 1e-12);
+}
+
+TEST(ReferencePath, OfPointsInOneMillisecondTheLastIsReadBack) {
+  ReferencePath reference{.reason = "good", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
+  reference.points = {{0.0, {0.0, 0.0, -1.0}}, {0.3, {1.0, 0.0, -1.0}}, {0.3004, {2.0, 0.0, -1.0}}};
+  const std::string file = testing::TempDir() + "/one_millisecond.csv";
+  std::ofstream(file) << reference_text(reference);
+  const Path read = read_reference_path(file).points;
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[1].t_s, 0.3);
+  EXPECT_EQ(read[1].p_WB.x(), 2.0);
 }
 
 TEST(Thinned, KeepsFirstLastAndTheStep) {
