@@ -114,7 +114,7 @@ Eigen::Vector3d Wind::sample(double height_m, const Eigen::Vector3d& v_WB_W, dou
   const double airspeed_mps = std::max((v_WB_W - steady_W).norm(), kMinAirspeedMps);
   Eigen::Vector3d air_W = steady_W;
   if (config_.turbulence_w20_mps > 0.0) air_W += turbulence_W(height_m, airspeed_mps * dt_s);
-  if (config_.gust.speed_mps > 0.0) {
+  if (config_.gust.speed_mps > 0.0 && gust_runs_) {
     t_s_ += dt_s;
     gust_path_m_ += airspeed_mps * std::clamp(t_s_ - config_.gust.start_s, 0.0, dt_s);
     air_W += gust_speed_mps(config_.gust, gust_path_m_) * gust_along_W_;

@@ -116,6 +116,10 @@ class Wind {
   /// The vehicle flies through frozen fields at its mean airspeed, at least 1 m/s. The filters are exact for any dt and
   /// keep their variance if airspeed or height change. Source: [MIL8785C] sec. 3.7.1.2, Dryden form.
   Eigen::Vector3d sample(double height_m, const Eigen::Vector3d& v_WB_W, double dt_s);
+  /// Stops the time of the gust until start_gust(), for a vehicle that is not yet in flight.
+  void delay_gust() { gust_runs_ = false; }
+  /// Starts the time of the gust at 0.
+  void start_gust() { gust_runs_ = true; }
 
  private:
   void draw_stationary();
@@ -129,6 +133,7 @@ class Wind {
   RandomStream noise_;
   double u_ = 0.0;  ///< filter states, scaled to unit stationary variance
   Eigen::Vector2d v_ = Eigen::Vector2d::Zero(), w_ = Eigen::Vector2d::Zero();
+  bool gust_runs_ = true;
   double t_s_ = 0.0, gust_path_m_ = 0.0;  ///< since the start of the flight, since the front of the gust
 };
 

@@ -146,11 +146,14 @@ ArduPilotLink::Taken ArduPilotLink::take(const PacketSource::Packet& packet, int
   }
   record(step, packet);
   const double now_s = source_->now_s();
-  heard_s_ = now_s;
   const std::optional<uint32_t> last = order_.last();
   switch (order_.judge(servos->count, now_s - answered_s_)) {
     case PacketOrder::Judgment::next:
       return mixing_.command(*servos);
+    case PacketOrder::Judgment::refused:
+      // A recording has no wall times, so that each of its repeats seems to come at once.
+      if (!source_->has_more()) return lost(fmt::format("it refuses our state (frame {})", servos->count));
+      [[fallthrough]];
     case PacketOrder::Judgment::repeated:
       ++figures_.repeated;
       if (now_s - answered_s_ >= config_.resend_s && !state_text_.empty() && order_.is_answered()) {
@@ -167,8 +170,6 @@ ArduPilotLink::Taken ArduPilotLink::take(const PacketSource::Packet& packet, int
       return lost(fmt::format("packets {} to {} are missing", *last + 1, servos->count - 1));
     case PacketOrder::Judgment::restart:
       return lost(fmt::format("the autopilot restarted at tick {}", step));
-    case PacketOrder::Judgment::refused:
-      return lost(fmt::format("it refuses our state (frame {})", servos->count));
     case PacketOrder::Judgment::early:
       break;
   }

@@ -1,5 +1,7 @@
 #include "sim/link/mavlink_channel.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <variant>
 
@@ -45,7 +47,11 @@ void MavlinkChannel::send(const OutsideInput& now, std::vector<uint8_t>& bytes) 
   companion_->send(t_ns(now), now.navigation, now.command, bytes);
 }
 
-std::string MavlinkChannel::awaited() const { return companion_ ? companion_->awaited() : ""; }
+std::string MavlinkChannel::awaited() const {
+  if (!companion_) return "";
+  const std::string awaited = companion_->awaited(), fault = companion_->fault();
+  return awaited.empty() || fault.empty() ? awaited : fmt::format("{} ({})", awaited, fault);
+}
 
 int64_t MavlinkChannel::malformed() const {
   return companion_ ? companion_->counts().malformed + companion_->counts().signed_frames : 0;

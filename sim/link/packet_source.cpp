@@ -85,7 +85,7 @@ PacketSource::Absence SocketSource::absence() const {
     return {fmt::format("the autopilot ended{}: {}; its output: {}", peer_ ? "" : " before its first packet",
                         process_->end_words(), process_->log().string())};
   }
-  if (peer_) return {fmt::format("nothing received for {:g} s", config_.silence_s)};
+  if (peer_) return {fmt::format("no new packet for {:g} s", config_.silence_s)};
   return {fmt::format("no autopilot within {:g} s; start: arducopter --model JSON:127.0.0.1{}",
                       config_.start.first_packet_s,
                       config_.start.instance == 0 ? "" : fmt::format(" -I {}", config_.start.instance))};

@@ -36,6 +36,8 @@ class PacketSource {
   virtual std::variant<Packet, Absence> next(int64_t step, double deadline_s) = 0;
   /// Returns a packet that has arrived; nullopt without one. @param step  on which serial bytes act.
   virtual std::optional<Packet> arrived(int64_t step) = 0;
+  /// Whether a packet is known to follow: a refusal, which ends a flight, is the last packet of its recording.
+  virtual bool has_more() { return false; }
   virtual void answer(std::string_view text) = 0;
   /// Returns false if the autopilot does not read its serial line.
   virtual bool send_serial(std::span<const uint8_t> bytes) = 0;
@@ -87,6 +89,7 @@ class ReplaySource : public PacketSource {
 
   std::variant<Packet, Absence> next(int64_t step, double deadline_s) override;
   std::optional<Packet> arrived(int64_t step) override;
+  bool has_more() override { return reader_.peek() != nullptr; }
   void answer(std::string_view) override {}
   bool send_serial(std::span<const uint8_t>) override { return true; }
   double now_s() const override { return 0.0; }

@@ -34,7 +34,7 @@ Px4Link::Px4Link(const Scenario& scenario, std::unique_ptr<HilSource> source, st
       writer_(kSimulator),
       autopilot_(mavlink::AutopilotMake::px4) {
   const auto& vehicle = std::get<dynamics::multicopter::MulticopterConfig>(scenario.vehicle);
-  MotorMatch match = match_motors(vehicle, config_.frame_class, config_.frame_type);
+  MotorMatch match = match_motors(vehicle, config_.frame_class, config_.frame_type, "link");
   if (!match.errors.empty()) throw InputError(std::move(match.errors));
   arm_of_motor_ = std::move(match.arm_of_motor);
   highest_radps_ = vehicle.rotor.highest_radps;

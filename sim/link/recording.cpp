@@ -39,11 +39,7 @@ void RecordingWriter::add(int64_t step, bool is_serial, std::span<const uint8_t>
   put(header, 8, static_cast<uint32_t>(bytes.size()) | (is_serial ? kSerialBit : 0u));
   stream_.write(reinterpret_cast<const char*>(header.data()), header.size());
   stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream_) throw std::runtime_error(fmt::format("cannot write {}", file_.string()));
-}
-
-void RecordingWriter::close() {
-  stream_.close();
+  stream_.flush();
   if (!stream_) throw std::runtime_error(fmt::format("cannot write {}", file_.string()));
 }
 

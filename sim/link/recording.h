@@ -22,9 +22,8 @@ class RecordingWriter {
  public:
   /// Throws std::runtime_error if the file cannot be written.
   explicit RecordingWriter(const std::filesystem::path& file);
-  /// Throws std::runtime_error on a full disk.
+  /// Writes the packet to the disk, so that a killed program loses none. Throws std::runtime_error on a full disk.
   void add(int64_t step, bool is_serial, std::span<const uint8_t> bytes);
-  void close();
 
  private:
   std::filesystem::path file_;

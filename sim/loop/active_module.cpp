@@ -89,6 +89,18 @@ class FailedModule : public avoidance::Module {
   ModuleFault fault_;
 };
 
+/// Makes the module of a takeover. The errors of make_module() name the scenario's own module.
+std::unique_ptr<avoidance::Module> make_successor(const AvoidanceConfig& config, const std::filesystem::path& folder) {
+  try {
+    return build_part("avoidance", [&] { return make_module(config, folder); });
+  } catch (const InputError& error) {
+    std::vector<FieldError> errors = error.field_errors();
+    if (errors.empty()) throw;
+    for (FieldError& each : errors) each.path = join_path("takeover", each.path);
+    throw InputError(std::move(errors));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, const Ticks& ticks,
@@ -98,7 +110,7 @@ std::unique_ptr<avoidance::Module> make_active_module(const Scenario& scenario, 
   if (!scenario.takeover) return module;
   return build_part("takeover.avoidance", [&] {
     return make_takeover(std::move(module),
-                         make_module(scenario.takeover->avoidance, folder.empty() ? folder : folder / "takeover"),
+                         make_successor(scenario.takeover->avoidance, folder.empty() ? folder : folder / "takeover"),
                          ticks.t_ns(ticks.ticks(scenario.takeover->at_s)));
   });
 } catch (const ModuleFault& fault) {

@@ -32,6 +32,7 @@ void Aircraft::reset(const CollisionWorld& world) {
 void Aircraft::reset_on_stand(const CollisionWorld& world) {
   Eigen::Vector3d p_WB = scenario_.start.draw_p_WB(stream_seed(scenario_.world(), "start"));
   if (const std::optional<double> stand_m = stand_altitude_m(scenario_)) p_WB.z() = -*stand_m;
+  wind_.delay_gust();
   wind_W_ = wind_.sample(-p_WB.z(), Eigen::Vector3d::Zero(), ticks_.dt_s());
   vehicle_.reset_on_stand(p_WB, scenario_.start.heading_rad, wind_W_);
   p_stand_W_ = p_WB;

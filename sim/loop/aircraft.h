@@ -24,8 +24,11 @@ class Aircraft {
   void reset(const CollisionWorld& world);
   /// Puts the vehicle of a linked flight at rest on its stand. Its flight starts with begin_linked_flight().
   void reset_on_stand(const CollisionWorld& world);
-  /// Starts the sensors of a linked flight at its start.
-  void begin_linked_flight(const CollisionWorld& world) { avionics_.reset(truth(world, 0)); }
+  /// Starts the sensors and the gust of a linked flight at its start.
+  void begin_linked_flight(const CollisionWorld& world) {
+    avionics_.reset(truth(world, 0));
+    wind_.start_gust();
+  }
   /// Reads the sensors that are due on this tick. @param flow_velocity  the velocimeter, if it has an image.
   void sense(int64_t tick, const CollisionWorld& world, const dynamics::VelocitySensor& flow_velocity = {}) {
     avionics_.sense(ticks_.t_ns(tick), truth(world, tick), flow_velocity);

@@ -55,12 +55,13 @@ void Episode::tick(const CallerCommand* command) {
 }
 
 void Episode::begin_tick() {
+  observation_.reset();
+  decision_made_.reset();
+  if (std::optional<Ending> fault = fault_of_state()) return end(*std::move(fault));
   measure_proximity();
   expose_cameras();
   read_sensors();
   watcher_dispatch_.send_sensors(tick_, motion());
-  observation_.reset();
-  decision_made_.reset();
   if (pilot_.decides(tick_)) observation_ = pilot_.observe(tick_, to_navigation_state(aircraft_.avionics()));
   const std::optional<Ending> reason = over() ? end_ : ending();
   if (!reason) return;
@@ -214,21 +215,22 @@ void Episode::run_autopilot() {
   watcher_dispatch_.send_row(log_.tables());
 }
 
-/// Returns the end of the flight by its motion, if any.
-std::optional<Episode::Ending> Episode::ending_of_motion() const {
+/// Returns the end of the flight by a state that cannot be measured or seen, if any.
+std::optional<Episode::Ending> Episode::fault_of_state() const {
   const dynamics::RigidBodyState& body = aircraft_.body();
-  if (!body.p_WB.allFinite() || !body.v_WB_B.allFinite() || !body.q_WB.coeffs().allFinite()) {
-    return Ending{Outcome::fault,
-                  fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_))};
-  }
-  if (collides()) {
-    const bool ground = proximity_.ground_clearance_m <= 0.0;
-    const std::string what = ground || !proximity_.nearest_solid
-                                 ? "the ground"
-                                 : scenes::solid_at(*environment_.scene, *proximity_.nearest_solid).name;
-    return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
-  }
-  return std::nullopt;
+  if (body.p_WB.allFinite() && body.v_WB_B.allFinite() && body.q_WB.coeffs().allFinite() && body.w_WB_B.allFinite())
+    return std::nullopt;
+  return Ending{Outcome::fault, fmt::format("the vehicle's state stopped being finite at {:.3f} s", ticks_.t_s(tick_))};
+}
+
+/// Returns the end of the flight by a collision, if any.
+std::optional<Episode::Ending> Episode::collision() const {
+  if (!collides()) return std::nullopt;
+  const bool ground = proximity_.ground_clearance_m <= 0.0;
+  const std::string what = ground || !proximity_.nearest_solid
+                               ? "the ground"
+                               : scenes::solid_at(*environment_.scene, *proximity_.nearest_solid).name;
+  return Ending{Outcome::collided, fmt::format("hit {} at {:.3f} s", what, ticks_.t_s(tick_))};
 }
 
 bool Episode::collides() const {
@@ -238,7 +240,7 @@ bool Episode::collides() const {
 
 /// Returns the end of the flight on this tick, if any.
 std::optional<Episode::Ending> Episode::ending() const {
-  if (std::optional<Ending> reason = ending_of_motion()) return reason;
+  if (std::optional<Ending> reason = collision()) return reason;
   if (scenario_.goal && pilot_.route().on_last() && scenario_.goal->holds(aircraft_.body().p_WB)) {
     return Ending{Outcome::reached, {}};
   }

@@ -88,7 +88,8 @@ class Episode {
   void observe_map();
   void run_autopilot();
   std::optional<Ending> ending() const;
-  std::optional<Ending> ending_of_motion() const;
+  std::optional<Ending> fault_of_state() const;
+  std::optional<Ending> collision() const;
   /// Whether the vehicle collides now, by the scenario's `collision_of`.
   bool collides() const;
   void end(Ending reason);

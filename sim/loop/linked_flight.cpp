@@ -27,9 +27,10 @@ void Episode::take_off() {
       break;
     }
     move_outside();
+    if (const std::optional<Ending> fault = fault_of_state()) end(*fault);
     if (over() || aircraft_.on_stand()) continue;
     proximity_ = environment_.collision.query(aircraft_.X_WB(), kMaxClearanceM, 0.0);
-    if (const std::optional<Ending> reason = ending_of_motion()) end(*reason);
+    if (const std::optional<Ending> reason = collision()) end(*reason);
   }
   aircraft_.begin_linked_flight(environment_.collision);
   if (over()) return;

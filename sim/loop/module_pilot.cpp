@@ -68,18 +68,20 @@ void ModulePilot::reset(const std::vector<dynamics::HullPart>& hull, const dynam
 }
 
 bool ModulePilot::exposes(int64_t tick) const {
-  return tick >= first_decision_ &&
-         std::ranges::any_of(module_cameras_, [&](size_t camera) { return cameras_.due(camera, tick); });
+  return std::ranges::any_of(module_cameras_, [&](size_t camera) { return cameras_.due(camera, tick); });
 }
 
 void ModulePilot::expose(int64_t tick, const BodyMotion& body) {
   seen_.clear();
   exposed_ = false;
-  if (tick < first_decision_) return;
   for (const size_t camera : module_cameras_) {
     if (!cameras_.due(camera, tick)) continue;
+    // Also during the hold, in which a camera adapts its gain. Else an export, which exposes it, would change the
+    // flight.
+    const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body);
+    if (tick < first_decision_) continue;
     exposed_ = true;
-    if (const avoidance::CameraFrame* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
+    if (frame) {
       seen_.push_back(*frame);
       last_seen_ = tick;
     }

@@ -31,9 +31,9 @@ class ModulePilot {
   /// Throws InputError if the module cannot be reset.
   void reset(const std::vector<dynamics::HullPart>& hull, const dynamics::control::Setpoint& hold);
 
-  /// Whether one of the module's cameras exposes on this tick. During the hold at the start, none does.
+  /// Whether one of the module's cameras exposes on this tick.
   bool exposes(int64_t tick) const;
-  /// Exposes the module's cameras that are due.
+  /// Exposes the module's cameras that are due. During the hold at the start, the module does not receive their frames.
   void expose(int64_t tick, const BodyMotion& body);
   /// Whether a decision is due on this tick, after expose(): with a new frame, or without one if the last frame is so
   /// old that the module counts as blind (avoidance/blind_stop.h).

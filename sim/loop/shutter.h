@@ -26,7 +26,7 @@ using DrawRows = std::function<void(const Eigen::Isometry3d& X_WB, double dt_s, 
 
 /// Exposes one camera's images: the rows one after the other for a rolling shutter, each the mean of several moments
 /// for motion blur, as the config says. Exposure ends at the image's instant. The moments divide it evenly, each in the
-/// middle of its part; there are as many as the image moves by quarters of a pixel, at least 1 and at most
+/// middle of its part; there is one per 0.4 px that the image moves, at least 1 and at most
 /// `shutter_samples`.
 class Shutter {
  public:

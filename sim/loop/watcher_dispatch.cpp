@@ -8,7 +8,7 @@ namespace hedgehop::sim {
 
 WatcherDispatch::WatcherDispatch(FlightWatcher* watcher, const Ticks& ticks, Cameras& cameras, const Aircraft& aircraft)
     : watcher_(watcher), ticks_(ticks), cameras_(cameras), aircraft_(aircraft) {
-  exposed_.resize(cameras_.count());
+  flow_starts_.resize(cameras_.count());
   if (watcher_ && watcher_->image_rate_hz() > 0.0) image_period_ = ticks_.period(watcher_->image_rate_hz());
 }
 
@@ -28,13 +28,9 @@ void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
   if (!watcher_ || !watcher_->wants_sensors()) return;
   const Cameras::Instant now{ticks_.t_ns(tick), body};
   std::vector<avoidance::CameraFrame> frames;
-  std::vector<size_t> exposing;
   for (size_t camera = 0; camera < cameras_.count(); ++camera) {
     if (!cameras_.due(camera, tick)) continue;
-    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) {
-      frames.push_back(*frame);
-      exposing.push_back(camera);
-    }
+    if (const auto* const frame = cameras_.expose(camera, ticks_.t_ns(tick), body)) frames.push_back(*frame);
   }
   const dynamics::Avionics& avionics = aircraft_.avionics();
   if (frames.empty() && !avionics.imu() && !avionics.gps()) return;
@@ -44,13 +40,13 @@ void WatcherDispatch::send_sensors(int64_t tick, const BodyMotion& body) {
   const auto moving = [&](std::string_view role) { return cameras_.moving(cameras_.index(role), now); };
   const auto flow_to_here = [&](std::string_view role) {
     const size_t camera = cameras_.index(role);
-    if (!exposed_[camera]) throw std::logic_error("the first image has no optic flow");
-    return cameras_.image(camera, ImageChannel::flow, *exposed_[camera], now);
+    if (!flow_starts_[camera]) throw std::logic_error("the optic flow has no start");
+    return cameras_.image(camera, ImageChannel::flow, *flow_starts_[camera], now);
   };
+  const auto start_flow = [&](std::string_view role) { flow_starts_[cameras_.index(role)] = now; };
   watcher_->on_sensors({now.t_ns, aircraft_.body(), avionics.imu(), avionics.imu_bias(), avionics.gps(),
                         avionics.navigation(), frames, image_of(ImageChannel::depth), image_of(ImageChannel::labels),
-                        image_of(ImageChannel::semantic), moving, flow_to_here});
-  for (const size_t camera : exposing) exposed_[camera] = now;
+                        image_of(ImageChannel::semantic), moving, flow_to_here, start_flow});
 }
 
 void WatcherDispatch::send_images(int64_t tick, const std::function<cv::Mat()>& annotate, std::string_view status,

@@ -40,7 +40,7 @@ class WatcherDispatch {
   Cameras& cameras_;
   const Aircraft& aircraft_;
   int64_t image_period_ = 0;
-  std::vector<std::optional<Cameras::Instant>> exposed_;  ///< instant of each camera's last image
+  std::vector<std::optional<Cameras::Instant>> flow_starts_;  ///< of each camera
 };
 
 }  // namespace hedgehop::sim

@@ -24,7 +24,7 @@ Companion::Companion(const CompanionConfig& config, CompanionSetup setup)
       setup_(std::move(setup)),
       writer_(kIdentity),
       autopilot_(setup_.make),
-      perception_(config.perception, setup_.needs, setup_.module, setup_.p_origin_W),
+      perception_(config.perception, setup_.needs, setup_.module, setup_.p_origin_W, setup_.make),
       start_(start_of(setup_)) {
   if (config.steer) require_steerable(setup_.needs);
 }

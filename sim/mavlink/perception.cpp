@@ -70,10 +70,13 @@ class FlowSource {
         frame->image, {frame->t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m});
     if (reading) flow_ = perceived_flow(*reading);
   }
-  void send(int64_t t_ns, FrameWriter& writer, std::vector<uint8_t>& bytes) {
+  void send(int64_t t_ns, AutopilotMake make, FrameWriter& writer, std::vector<uint8_t>& bytes) {
     if (!flow_) return;
-    writer.append(optical_flow(t_ns, *flow_, focal_px_), bytes);
-    writer.append(optical_flow_rad(t_ns, *flow_), bytes);
+    if (make == AutopilotMake::ardupilot) {
+      writer.append(optical_flow(t_ns, *flow_, focal_px_), bytes);
+    } else {
+      writer.append(optical_flow_rad(t_ns, *flow_), bytes);
+    }
     flow_.reset();
   }
 
@@ -89,8 +92,8 @@ class FlowSource {
 class Perception::Impl {
  public:
   Impl(const PerceptionConfig& config, const avoidance::Needs& needs, const avoidance::Setup& setup,
-       const Eigen::Vector3d& p_origin_W)
-      : config_(config), limits_(limits_of(config, setup.limits)), p_origin_W_(p_origin_W) {
+       const Eigen::Vector3d& p_origin_W, AutopilotMake make)
+      : config_(config), limits_(limits_of(config, setup.limits)), p_origin_W_(p_origin_W), make_(make) {
     if (config.max_m <= config.min_m) throw std::invalid_argument("max: must be above min");
     if (config.obstacle_distance) sources_ = sector_sources(config, needs, setup, limits_);
     if (config.optical_flow) flow_ = FlowSource::find(needs, setup);
@@ -110,7 +113,7 @@ class Perception::Impl {
                                : height_reading_on_ground(t_ns),
                     bytes);
     }
-    if (flow_) flow_->send(t_ns, writer, bytes);
+    if (flow_) flow_->send(t_ns, make_, writer, bytes);
     if (!navigation || !pose_.due(t_ns)) return;
     if (config_.vision_position) writer.append(vision_position(t_ns, *navigation, p_origin_W_), bytes);
     if (config_.odometry) writer.append(odometry(t_ns, *navigation, p_origin_W_), bytes);
@@ -128,14 +131,15 @@ class Perception::Impl {
   PerceptionConfig config_;
   SectorLimits limits_;
   Eigen::Vector3d p_origin_W_;
+  AutopilotMake make_;
   std::vector<SectorSource> sources_;
   std::optional<FlowSource> flow_;
   Period sectors_{kSectorsEveryNs}, height_{kHeightEveryNs}, pose_{kPoseEveryNs};
 };
 
 Perception::Perception(const PerceptionConfig& config, const avoidance::Needs& needs, const avoidance::Setup& setup,
-                       const Eigen::Vector3d& p_origin_W)
-    : impl_(std::make_unique<Impl>(config, needs, setup, p_origin_W)) {}
+                       const Eigen::Vector3d& p_origin_W, AutopilotMake make)
+    : impl_(std::make_unique<Impl>(config, needs, setup, p_origin_W, make)) {}
 Perception::Perception(Perception&&) noexcept = default;
 Perception& Perception::operator=(Perception&&) noexcept = default;
 Perception::~Perception() = default;

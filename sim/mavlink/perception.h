@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "avoidance/module.h"
+#include "sim/mavlink/autopilot_state.h"
 #include "sim/mavlink/companion_config.h"
 #include "sim/mavlink/frame.h"
 
@@ -17,9 +18,10 @@ namespace hedgehop::sim::mavlink {
 class Perception {
  public:
   /// @param needs, setup  of the module: its cameras are the only ones. @param p_origin_W  origin of the autopilot's
-  /// local frame in W, m. Throws std::invalid_argument on a bad config or if stereo cameras do not fit together.
+  /// local frame in W, m. @param make  decides the message for optic flow: ArduPilot publishes each of two messages as
+  /// a reading of its own. Throws std::invalid_argument on a bad config or if stereo cameras do not fit together.
   Perception(const PerceptionConfig& config, const avoidance::Needs& needs, const avoidance::Setup& setup,
-             const Eigen::Vector3d& p_origin_W);
+             const Eigen::Vector3d& p_origin_W, AutopilotMake make);
   Perception(Perception&&) noexcept;
   Perception& operator=(Perception&&) noexcept;
   ~Perception();

@@ -55,7 +55,7 @@ class Px4Start {
   std::optional<int64_t> sent_ns_, streamed_ns_, setpoint_ns_;
 };
 
-/// Returns the step's condition, for a message: "mode GUIDED".
+/// Returns the step's condition, for a message: "its HEARTBEAT".
 std::string awaited(StartStep step, const AutopilotState& autopilot);
 
 }  // namespace hedgehop::sim::mavlink

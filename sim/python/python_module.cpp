@@ -72,9 +72,13 @@ auto locked(const Call& call) {
 }
 
 [[noreturn]] void refuse(const py::handle& value, const std::string& name, const std::string& expected) {
-  constexpr size_t kMaxLetters = 80;
+  constexpr size_t kMaxBytes = 80;
   std::string got = py::repr(value);
-  if (got.size() > kMaxLetters) got = got.substr(0, kMaxLetters) + "...";
+  if (got.size() > kMaxBytes) {
+    size_t end = kMaxBytes;
+    while (end > 0 && (static_cast<unsigned char>(got[end]) & 0xC0u) == 0x80u) --end;  // between characters of UTF-8
+    got = got.substr(0, end) + "...";
+  }
   throw std::invalid_argument("'" + name + "' must be " + expected + ", got " + got);
 }
 

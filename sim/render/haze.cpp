@@ -3,24 +3,34 @@
 #include <array>
 #include <cmath>
 
+#include "sim/render/lens_faces.h"
+
 namespace hedgehop::sim {
 namespace {
 
 /// Ratio of the distance along the ray to the depth of each pixel. It is 1 if the depth is the distance along the ray.
 class RayLengths {
  public:
-  explicit RayLengths(const vision::camera::Camera& camera) : pinhole_(camera.is_undistorted_pinhole()) {
+  RayLengths(const vision::camera::Camera& camera, std::span<const Eigen::Vector3d> rays)
+      : depth_is_z_(depth_is_z(camera)),
+        pinhole_(camera.is_undistorted_pinhole()),
+        width_(camera.width_px),
+        rays_(rays) {
     if (pinhole_) camera_ = camera.pinhole();
   }
 
   double at(int u, int v) const {
-    if (!pinhole_) return 1.0;
+    if (!depth_is_z_) return 1.0;
+    if (!pinhole_)
+      return 1.0 / rays_[static_cast<size_t>(v) * static_cast<size_t>(width_) + static_cast<size_t>(u)].z();
     const double x = (u - camera_.center_u_px) / camera_.focal_x_px, y = (v - camera_.center_v_px) / camera_.focal_y_px;
     return std::sqrt(1.0 + x * x + y * y);
   }
 
  private:
-  bool pinhole_;
+  bool depth_is_z_, pinhole_;
+  int width_;
+  std::span<const Eigen::Vector3d> rays_;
   vision::camera::PinholeCamera camera_;
 };
 
@@ -37,12 +47,13 @@ double transmittance(double distance_m, double visibility_m) {
   return std::exp(-std::log(20.0) * distance_m / visibility_m);
 }
 
-void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv::Mat1f& depth, cv::Mat& image) {
+void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, std::span<const Eigen::Vector3d> rays,
+              const cv::Mat1f& depth, cv::Mat& image) {
   const int channels = image.channels();
   std::array<double, 3> air{};
   for (int k = 0; k < channels; ++k)
     air[static_cast<size_t>(k)] = 255.0 * (channels == 1 ? sky.horizon.mean() : sky.horizon[k]);
-  const RayLengths lengths(camera);
+  const RayLengths lengths(camera, rays);
   for (int v = 0; v < image.rows; ++v) {
     uint8_t* level = image.ptr<uint8_t>(v);
     for (int u = 0; u < image.cols; ++u, level += channels) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <span>
 
 #include "scenes/scene.h"
 #include "vision/camera/camera.h"
@@ -13,8 +15,10 @@ double transmittance(double distance_m, double visibility_m);
 
 /// Adds homogeneous haze to an image: blends each pixel with the color of the horizon according to its distance along
 /// the ray. Pixels of the sky are not changed.
+/// @param rays   all_rays() of a distorted pinhole camera; not read for other lenses.
 /// @param depth  as ImageChannel::depth of the same view; one depth per pixel, for any number of samples.
 /// @param image  CV_8UC1 or CV_8UC3, RGB.
-void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, const cv::Mat1f& depth, cv::Mat& image);
+void add_haze(const scenes::Sky& sky, const vision::camera::Camera& camera, std::span<const Eigen::Vector3d> rays,
+              const cv::Mat1f& depth, cv::Mat& image);
 
 }  // namespace hedgehop::sim

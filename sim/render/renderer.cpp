@@ -81,7 +81,7 @@ class Renderer::Impl {
   struct Lens {
     LensFaces faces;
     cv::Mat levels, colors, planes, labels;  ///< sheets
-    std::vector<Eigen::Vector3d> rays;       ///< filled by the first flow image
+    std::vector<Eigen::Vector3d> rays;       ///< filled by the first image that needs them
   };
 
   void check(const CameraView& view) {
@@ -123,7 +123,10 @@ class Renderer::Impl {
   void add_haze(const CameraView& view, cv::Mat& image) {
     if (view.channel != ImageChannel::grey && view.channel != ImageChannel::color) return;
     draw(view, ImageChannel::depth, haze_depth_);
-    sim::add_haze(sky_, view.camera, haze_depth_, image);
+    const bool distorted_pinhole = depth_is_z(view.camera) && !view.camera.is_undistorted_pinhole();
+    const std::span<const Eigen::Vector3d> rays =
+        distorted_pinhole ? rays_of(lens_of(view.camera)) : std::span<const Eigen::Vector3d>();
+    sim::add_haze(sky_, view.camera, rays, haze_depth_, image);
   }
 
   void render_sheet(const LensFaces& faces, const PinholeRenderer::Viewpoint& viewpoint, Raster raster, int samples,
@@ -151,9 +154,7 @@ class Renderer::Impl {
     if (!motions_.empty()) draw(view, ImageChannel::labels, flow_labels_);
     const FlowInput input{flow_depth_, flow_labels_, view.X_WC, view.next.X_WC, first_mover_label_, moved_W_};
     if (pinhole) return true_flow(view.camera.pinhole(), input, out);
-    Lens& lens = lens_of(view.camera);
-    if (lens.rays.empty()) lens.rays = all_rays(view.camera);
-    true_flow(view.camera, lens.rays, input, out);
+    true_flow(view.camera, rays_of(lens_of(view.camera)), input, out);
   }
 
   std::deque<Lens>::iterator find_lens(const vision::camera::Camera& camera) {
@@ -166,6 +167,11 @@ class Renderer::Impl {
     lens.faces.camera = camera;
     if (!camera.is_undistorted_pinhole()) lens.faces = make_lens_faces(camera);
     return lens;
+  }
+
+  static const std::vector<Eigen::Vector3d>& rays_of(Lens& lens) {
+    if (lens.rays.empty()) lens.rays = all_rays(lens.faces.camera);
+    return lens.rays;
   }
 
   std::unique_ptr<PinholeRenderer> pinholes_;

@@ -20,6 +20,7 @@
 #include "sim/scenario/validate.h"
 #include "sim/simulation/map_judge.h"
 #include "sim/verdict/assessment.h"
+#include "sim/verdict/floor_visited.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -89,29 +90,29 @@ class Simulation::Impl {
 
   bool tick(const CallerCommand* command) {
     const Stopwatch stopwatch(flying_s_);
-    episode_->tick(command);
-    return !episode_->over();
+    episode().tick(command);
+    return !episode().over();
   }
 
   bool step(const CallerCommand* command) {
     const Stopwatch stopwatch(flying_s_);
-    episode_->tick(command);
-    while (!episode_->over() && !episode_->decides()) episode_->tick();
-    return !episode_->over();
+    episode().tick(command);
+    while (!episode().over() && !episode().decides()) episode().tick();
+    return !episode().over();
   }
 
   void fly_to(double t_s) {
     const Stopwatch stopwatch(flying_s_);
     const double half_tick_s = 0.5 / static_cast<double>(scenario_.physics_rate_hz.value());
-    while (!episode_->over() && episode_->t_s() + half_tick_s < t_s) episode_->tick();
-    if (episode_->t_s() + half_tick_s >= t_s) return;
-    const FlightResult ended = episode_->flight().result;
-    throw InputError(fmt::format("the flight ends at {:.3f} s ({}{}{}), before {:g} s", episode_->t_s(),
+    while (!episode().over() && episode().t_s() + half_tick_s < t_s) episode().tick();
+    if (episode().t_s() + half_tick_s >= t_s) return;
+    const FlightResult ended = episode().flight().result;
+    throw InputError(fmt::format("the flight ends at {:.3f} s ({}{}{}), before {:g} s", episode().t_s(),
                                  to_string(ended.outcome), ended.cause.empty() ? "" : ": ", ended.cause, t_s));
   }
 
   size_t camera(std::string_view role) {
-    if (scenario_.rig.find(role)) return episode_->cameras().index(role);
+    if (scenario_.rig.find(role)) return episode().cameras().index(role);
     std::vector<std::string> roles;
     for (const CameraConfig& camera : scenario_.rig.cameras) roles.push_back(camera.role);
     throw InputError(fmt::format("the rig has no camera '{}'; its cameras: {}", role, fmt::join(roles, ", ")));
@@ -119,7 +120,7 @@ class Simulation::Impl {
 
   /// Returns the flight with its verdict, as if it ended now.
   Flight judged() const {
-    Flight flight = episode_->flight();
+    Flight flight = episode().flight();
     flight.result.wall_s = flying_s_;
     flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
     flight.result.libraries = libraries(environment_->renderer.info());
@@ -128,20 +129,30 @@ class Simulation::Impl {
     return flight;
   }
 
-  Episode& episode() { return *episode_; }
+  /// Throws std::logic_error if the last reset failed.
+  Episode& episode() {
+    if (!episode_) throw std::logic_error("there is no flight: the last reset failed; reset again");
+    return *episode_;
+  }
+  const Episode& episode() const { return const_cast<Impl*>(this)->episode(); }
   const Scenario& scenario() const { return scenario_; }
-  const scenes::Scene& scene() const { return *environment_->scene; }
+  const scenes::Scene& scene() const {
+    static_cast<void>(episode());
+    return *environment_->scene;
+  }
 
  private:
   void begin(FlightParts parts) {
+    require_floor_cells(scenario_, *environment_->scene);
     if (make_module_) parts.module = make_module_();
     flying_s_ = 0.0;
     judge_.emplace();
     const Stopwatch stopwatch(flying_s_);
     episode_.emplace(scenario_, *environment_, std::move(parts), watcher_, &*judge_, outside_);
     if (!outside_ && episode_->proximity().collided) {
-      throw InputError(
-          FieldError{"start", fmt::format("the vehicle collides at the start: {}", episode_->flight().result.cause)});
+      const std::string cause = episode_->flight().result.cause;
+      episode_.reset();
+      throw InputError(FieldError{"start", fmt::format("the vehicle collides at the start: {}", cause)});
     }
   }
 
@@ -149,9 +160,9 @@ class Simulation::Impl {
   ModuleMaker make_module_;
   FlightWatcher* watcher_;
   OutsideAutopilot* outside_;
-  std::optional<FlightEnvironment> environment_;
+  std::optional<FlightEnvironment> environment_;  ///< empty after a reset that failed
   std::optional<MapJudge> judge_;
-  std::optional<Episode> episode_;  ///< refers to all of the above
+  std::optional<Episode> episode_;  ///< refers to all of the above; empty after a reset that failed
   double flying_s_ = 0.0;           ///< wall time
 };
 

@@ -7,12 +7,15 @@ import shutil
 import signal
 import subprocess
 import sys
+import warnings
 
 from ._native import InputError
 from .results import load
 from .simulation import overrides
 
 _PROGRESS = re.compile(r"\d+/\d+[:, ]")  # as in "3/10, 1 failed: city_seed3 reached; about 20 s left"
+
+_WARNING = "warning: "
 
 
 def program():
@@ -44,8 +47,8 @@ def _show(line):
 def _fly(command, progress):
     """Runs the program. Ctrl-C stops it; completed flights are kept, and `resume` continues."""
     lines = []
-    with subprocess.Popen([program(), *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                          errors="replace", start_new_session=True) as running:
+    with subprocess.Popen([program(), *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          encoding="utf-8", errors="replace", start_new_session=True) as running:
         try:
             for line in running.stderr:
                 lines.append(line.rstrip("\n"))
@@ -64,6 +67,9 @@ def _fly(command, progress):
         raise InputError(errors)
     if running.returncode not in (0, 1):
         raise RuntimeError(errors or f"hedgehop ended with status {running.returncode}")
+    for line in lines:
+        if line.startswith(_WARNING):
+            warnings.warn(line.removeprefix(_WARNING), stacklevel=3)
 
 
 def batch(files, out, *, seeds=None, set=None, jobs=None, resume=False, progress=True):

@@ -24,6 +24,10 @@ def _column(name, texts):
         return np.array(texts)
 
 
+def _text(file):
+    return file.read_text(encoding="utf-8")
+
+
 def read_table(text):
     """Returns the table of a CSV text as a record array with one field per column."""
     rows = list(csv.reader(io.StringIO(text)))
@@ -52,11 +56,11 @@ def load(folder):
     folder = pathlib.Path(folder)
     for table in ("sweep.csv", "batch.csv"):
         if (folder / table).exists():
-            return read_table((folder / table).read_text())
+            return read_table(_text(folder / table))
     if not (folder / "result.json").exists():
         raise FileNotFoundError(f"{folder}: no result.json, batch.csv or sweep.csv")
-    return Flight(json.loads((folder / "result.json").read_text()), read_table((folder / "trajectory.csv").read_text()),
-                  read_table((folder / "decisions.csv").read_text()))
+    return Flight(json.loads(_text(folder / "result.json")), read_table(_text(folder / "trajectory.csv")),
+                  read_table(_text(folder / "decisions.csv")))
 
 
 def to_frame(records):

@@ -12,6 +12,7 @@
 
 #include "sim/scenario/motor_frames.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/validate.h"
 
 namespace hedgehop::sim::link {
 namespace {
@@ -114,6 +115,22 @@ TEST(MotorFrames, AnotherNumberOfArmsAndAnUnknownFrameAreRefused) {
   EXPECT_EQ(match_motors(MulticopterConfig{}, 2, 1).errors.at(0).message, "4 arms; FRAME_CLASS 2, TYPE 1 has 6 motors");
   EXPECT_NE(match_motors(MulticopterConfig{}, 5, 3).errors.at(0).message.find("FRAME_CLASS 5, TYPE 3 is unknown"),
             std::string::npos);
+}
+
+TEST(MotorFrames, EveryErrorOfALinkIsNamedByItsKey) {
+  Scenario scenario;
+  scenario.vehicle = MulticopterConfig{};
+  const auto paths = [&](const LinkConfig& link) {
+    scenario.link = link;
+    std::vector<std::string> all;
+    for (const FieldError& error : link_errors(scenario)) all.push_back(error.path);
+    return all;
+  };
+  const MulticopterLinkConfig inverted = {.frame_type = 0, .pwm_min_us = 1900.0, .pwm_max_us = 1100.0};
+  EXPECT_THAT(paths(ArduPilotLinkConfig{.multicopter = inverted}), testing::ElementsAre("link.multicopter.pwm_max"));
+  const MulticopterLinkConfig unknown = {.frame_type = 99};
+  EXPECT_THAT(paths(ArduPilotLinkConfig{.multicopter = unknown}), testing::ElementsAre("link.multicopter.frame_type"));
+  EXPECT_THAT(paths(Px4LinkConfig{.frame_type = 99}), testing::ElementsAre("link.frame_type"));
 }
 
 class HelicopterPulses : public testing::Test {

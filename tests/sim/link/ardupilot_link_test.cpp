@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include "sim/config/input_error.h"
 #include "tests/sim/link/linked_autopilot.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::link {
 namespace {
@@ -110,7 +112,45 @@ TEST_F(LinkedAutopilot, SilenceEndsTheFlight) {
   });
   ASSERT_TRUE(end);
   EXPECT_EQ(end->outcome, Outcome::link_lost);
-  EXPECT_EQ(end->cause, "link: nothing received for 0.01 s at tick 1");
+  EXPECT_EQ(end->cause, "link: no new packet for 0.01 s at tick 1");
+}
+
+/// An autopilot that gets no answer, and repeats its first packet each 1.1 s of a simulated clock.
+class UnansweredSource : public PacketSource {
+ public:
+  explicit UnansweredSource(double& now_s) : now_s_(now_s) {}
+  std::variant<Packet, Absence> next(int64_t /*step*/, double deadline_s) override {
+    const double next_s = sent_ ? now_s_ + 1.1 : now_s_;
+    now_s_ = std::min(next_s, deadline_s);
+    if (next_s > deadline_s) return Absence{"silent"};
+    sent_ = true;
+    return Packet{false, packet_};
+  }
+  std::optional<Packet> arrived(int64_t /*step*/) override { return std::nullopt; }
+  void answer(std::string_view) override {}
+  bool send_serial(std::span<const uint8_t>) override { return true; }
+  double now_s() const override { return now_s_; }
+  int64_t strangers() const override { return 0; }
+  std::string peer() const override { return ""; }
+  double waited_s() const override { return 0.0; }
+
+ private:
+  double& now_s_;
+  bool sent_ = false;
+  std::vector<uint8_t> packet_ = servo_packet(0, 1500);
+};
+
+TEST_F(LinkedAutopilot, RepeatsWithoutANewPacketAreSilence) {
+  config_.silence_s = 30.0;
+  config_.resend_s = 3.0;
+  scenario_.link = config_;
+  double now_s = 0.0;
+  ArduPilotLink link(scenario_, std::make_unique<UnansweredSource>(now_s));
+  const std::optional<LinkEnd> end = run(link, 10);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->cause, "link: silent at tick 1");
+  EXPECT_EQ(now_s, 30.0);
+  EXPECT_EQ(link.figures().resent, 9);  // at 3.3, 6.6, ..., 29.7 s
 }
 
 TEST_F(LinkedAutopilot, SilenceBeforeTheFlightIsABadInput) {
@@ -200,7 +240,8 @@ TEST_F(LinkedAutopilot, MalformedDatagramsAreCountedWithoutGrowthOfMemory) {
 }
 
 TEST_F(LinkedAutopilot, RecordingFliesAgainWithTheSameCommandsAndCounts) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "linked_autopilot.bin";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "linked_autopilot.bin";
   std::vector<Eigen::VectorXd> live, again;
   const auto fly = [](ArduPilotLink& link, std::vector<Eigen::VectorXd>& commands) {
     for (int64_t step = 0;; ++step) {
@@ -233,6 +274,24 @@ TEST_F(LinkedAutopilot, RecordingFliesAgainWithTheSameCommandsAndCounts) {
   EXPECT_EQ(replay.figures().frames, recorded.frames);
   EXPECT_EQ(replay.figures().repeated, recorded.repeated);
   EXPECT_EQ(recorded.repeated, 7);
+}
+
+/// A recording has no wall times: repeats that came after a second each must not count as a refusal, which comes at
+/// once and is the last packet.
+TEST_F(LinkedAutopilot, ReplayTakesRepeatsForARefusalOnlyAtTheEnd) {
+  scenario_.link = config_;
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "repeats.bin";
+  const auto end_of = [&](const std::vector<uint32_t>& counts) {
+    {
+      RecordingWriter writer(file);
+      for (const uint32_t count : counts) writer.add(count + 1, false, servo_packet(count, 1500));
+    }
+    ArduPilotLink replay(scenario_, std::make_unique<ReplaySource>(file));
+    return run(replay, 100)->cause;
+  };
+  EXPECT_EQ(end_of({0, 1, 1, 1, 1, 2, 3}), "link: the recording ends at tick 4");
+  EXPECT_EQ(end_of({0, 1, 1, 1}), "link: it refuses our state (frame 1)");
 }
 
 }  // namespace

@@ -13,16 +13,13 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::link {
 namespace {
 
 class ChildProcessTest : public testing::Test {
  protected:
-  ChildProcessTest() : out_(std::filesystem::path(testing::TempDir()) / "link_child") {
-    std::filesystem::remove_all(out_);
-    std::filesystem::create_directories(out_);
-  }
   std::unique_ptr<ChildProcess> start(const std::vector<std::string>& command) const {
     return std::make_unique<ChildProcess>(command, out_ / "work", out_ / "log");
   }
@@ -34,7 +31,8 @@ class ChildProcessTest : public testing::Test {
     pollfd watched{.fd = child.descriptor(), .events = POLLIN, .revents = 0};
     ASSERT_EQ(::poll(&watched, 1, 60'000), 1);
   }
-  std::filesystem::path out_;
+  TemporaryFolder folder_;
+  std::filesystem::path out_ = folder_.path();
 };
 
 TEST_F(ChildProcessTest, RunsInItsFolderAndWritesItsLog) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/link/ardupilot_link.h"
+#include "sim/link/mavlink_channel.h"
 #include "tests/sim/link/linked_autopilot.h"
 
 namespace hedgehop::sim::link {
@@ -66,6 +67,16 @@ TEST_F(LinkedAutopilot, CommandThatTheChannelRefusesIsAFault) {
   const auto answer = link.exchange(state);
   EXPECT_EQ(std::get<LinkEnd>(answer).outcome, Outcome::fault);
   EXPECT_EQ(std::get<LinkEnd>(answer).cause, "link: AttitudeCommand cannot be sent to this autopilot");
+}
+
+TEST_F(LinkedAutopilot, AwaitedHeartbeatNamesMavlink1) {
+  scenario_.link = config_;
+  MavlinkChannel channel(scenario_, mavlink::AutopilotMake::ardupilot, {});
+  EXPECT_EQ(channel.awaited(), "");
+  channel.prepare({}, {});
+  const std::string awaited = channel.awaited();
+  channel.receive(input(0), std::vector<uint8_t>{0xFE, 9, 0, 1, 1, 0, 0, 0, 0, 0, 2, 3, 0, 4, 3, 0x11, 0x22});
+  EXPECT_EQ(channel.awaited(), awaited + " (MAVLink 1; valid: MAVLink 2)");
 }
 
 /// The serial line of an autopilot: a TCP server with one client.

@@ -21,18 +21,21 @@ namespace hedgehop::sim::link {
 inline constexpr uint32_t kLoopback = 0x7f000001;
 inline constexpr double kNeverS = 3600.0;  // longer than any test
 
+/// Returns a packet of ArduPilot with 16 equal pulses at 1200 Hz.
+inline std::vector<uint8_t> servo_packet(uint32_t count, uint16_t pulse_us) {
+  std::vector<uint8_t> bytes = {0x1a, 0x48, 0xb0, 0x04};
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<uint8_t>(count >> (8 * i)));
+  for (int i = 0; i < 16; ++i)
+    bytes.insert(bytes.end(), {static_cast<uint8_t>(pulse_us), static_cast<uint8_t>(pulse_us >> 8)});
+  return bytes;
+}
+
 /// An autopilot of the tests on a real socket.
 class PeerSocket {
  public:
   explicit PeerSocket(uint16_t port) : socket_({kLoopback, 0}), server_({kLoopback, port}) {}
 
-  void send(uint32_t count, uint16_t pulse_us = 1500) {
-    std::vector<uint8_t> bytes = {0x1a, 0x48, 0xb0, 0x04};
-    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<uint8_t>(count >> (8 * i)));
-    for (int i = 0; i < 16; ++i)
-      bytes.insert(bytes.end(), {static_cast<uint8_t>(pulse_us), static_cast<uint8_t>(pulse_us >> 8)});
-    send_bytes(bytes);
-  }
+  void send(uint32_t count, uint16_t pulse_us = 1500) { send_bytes(servo_packet(count, pulse_us)); }
   void send_bytes(const std::vector<uint8_t>& bytes) {
     socket_.send(server_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }

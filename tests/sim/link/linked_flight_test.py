@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import scripted_peer
@@ -71,17 +72,19 @@ class LinkedFlight(unittest.TestCase):
         # The peer begins when the port is open: a packet to a closed port is lost.
         flight = subprocess.Popen([HEDGEHOP, "run", self.scenario, "--no-report", "--renderer", "tiles", "--out", self.folder / out,
                                    *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.wait_for_port()
+        self.wait_for_port(flight)
         thread = threading.Thread(target=play, daemon=True)
         thread.start()
         text, errors = flight.communicate(timeout=200)
         return subprocess.CompletedProcess(flight.args, flight.returncode, text, errors)
 
-    def wait_for_port(self):
-        """Waits until the program listens; its port is then in this list."""
+    def wait_for_port(self, flight):
+        """Waits until the program listens; its port is then in this list. Fails if the program ends before."""
         wanted = f"0100007F:{self.port:04X} "
         while wanted not in pathlib.Path("/proc/net/udp").read_text():
-            pass
+            if flight.poll() is not None:
+                self.fail(f"hedgehop ended with status {flight.returncode} before its flight: {''.join(flight.communicate())}")
+            time.sleep(0.01)
 
     def result(self, out="run"):
         return json.loads((self.folder / out / "result.json").read_text())
@@ -168,7 +171,7 @@ class LinkedFlight(unittest.TestCase):
         done = self.fly(lambda peer: scripted_peer.fly(peer, scripted_peer.HoverLaw("hummingbird"), 1000), "--set", "link.silence=0.2")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(self.result()["outcome"], "link_lost")
-        self.assertEqual(self.result()["cause"], "link: nothing received for 0.2 s at tick 1000")
+        self.assertEqual(self.result()["cause"], "link: no new packet for 0.2 s at tick 1000")
 
     def test_malformed_packets_are_counted_and_warned_of_once(self):
         def script(peer):

@@ -100,6 +100,18 @@ TEST(LinkedSimulation, EqualCommandsGiveEqualFlights) {
   EXPECT_EQ(a.result.trajectory_hash, b.result.trajectory_hash);
 }
 
+/// The vehicle rests on its stand until about 0.12 s after the first step.
+TEST(LinkedSimulation, GustBeginsAtItsTimeAfterTheStartOfTheFlight) {
+  TestAutopilot autopilot;
+  const Flight flight =
+      Simulation(scenario_with({"wind.gust={speed: 5, start: 0.05, length: 1e-3, hold: 1000}"}), nullptr, &autopilot)
+          .run();
+  for (const TrajectoryRow& row : flight.trajectory) {
+    EXPECT_NEAR(row.wind_W.x(), row.t_s < 0.055 ? 0.0 : -5.0, 1e-9) << row.t_s;
+  }
+  for (const OutsideInput& input : autopilot.inputs) EXPECT_TRUE(input.t_ns || input.wind_W.isZero(0.0));
+}
+
 TEST(LinkedSimulation, LostLinkEndsTheFlightWithAllUntilThen) {
   TestAutopilot autopilot;
   autopilot.lost_at = 300;

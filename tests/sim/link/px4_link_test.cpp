@@ -12,6 +12,7 @@
 #include "sim/config/input_error.h"
 #include "sim/mavlink/command_messages.h"
 #include "tests/sim/link/scripted_px4.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::link {
 namespace {
@@ -132,7 +133,8 @@ TEST_F(Px4Lockstep, OtherProtocolVersionsAreRefused) {
 }
 
 TEST_F(Px4Lockstep, ARecordingFliesTheSameControlsAgain) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "hedgehop_px4_link.bin";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "link.bin";
   std::mt19937 random(1);
   EXPECT_FALSE(fly(
       [&random](uint64_t time_us, int64_t index) {
@@ -151,7 +153,6 @@ TEST_F(Px4Lockstep, ARecordingFliesTheSameControlsAgain) {
   EXPECT_EQ(link_->figures().malformed, figures.malformed);
   EXPECT_GT(figures.unanswered, 10);
   EXPECT_GT(figures.malformed, 10);
-  std::filesystem::remove(file);
 }
 
 TEST_F(Px4Lockstep, AMillionMalformedFragmentsAreCountedInConstantMemory) {

@@ -1,6 +1,7 @@
 #include "sim/link/recording.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,8 @@ namespace hedgehop::sim::link {
 namespace {
 
 std::filesystem::path recording_file(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / ("link_recording_" + name + ".bin");
+  return std::filesystem::path(testing::TempDir()) /
+         ("link_recording_" + std::to_string(::getpid()) + "_" + name + ".bin");
 }
 
 std::vector<uint8_t> bytes_of(const std::filesystem::path& file) {
@@ -27,7 +29,6 @@ TEST(Recording, HasStepLengthAndBytesInLittleEndian) {
   RecordingWriter writer(file);
   writer.add(0x0102, false, std::vector<uint8_t>{0xaa, 0xbb});
   writer.add(3, true, std::vector<uint8_t>{0xcc});
-  writer.close();
   EXPECT_EQ(bytes_of(file), (std::vector<uint8_t>{2, 1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0,    0xaa, 0xbb,  //
                                                   3, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0x80, 0xcc}));
 }
@@ -38,7 +39,6 @@ TEST(Recording, ReadsBackAsWritten) {
   for (int64_t step = 0; step < 1000; ++step) {
     writer.add(step, step % 3 == 0, std::vector<uint8_t>(static_cast<size_t>(step % 70), static_cast<uint8_t>(step)));
   }
-  writer.close();
   RecordingReader reader(file);
   for (int64_t step = 0; step < 1000; ++step) {
     const RecordedPacket* const packet = reader.peek();

@@ -4,6 +4,7 @@ usage: convert_log_test.py SOURCE
 """
 
 import csv
+import os
 import pathlib
 import shutil
 import struct
@@ -109,6 +110,51 @@ class ConvertLog(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([row["height"] for row in rows], ["0.4", "0.5"])
         self.assertAlmostEqual(float(rows[0]["t_s"]), 0.1, 9)
+
+    def refused(self, words, name, data, *arguments):
+        done, _ = self.convert(name, data, *arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(words, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+
+    def test_a_row_of_another_length_is_refused_with_its_line(self):
+        self.refused("has 1 fields in line 4; its first line has 2", "flight.csv", b"t_s,x\n0,1\n1,2\n2\n")
+        self.refused("has 3 fields in line 2; its first line has 2", "flight.csv", b"t_s,x\n0,1,2\n1,2\n")
+        done, rows = self.convert("flight.csv", b"t_s,x\n0,1\n1,2\n\n")  # an empty line at the end
+        self.assertEqual([row["x"] for row in rows], ["1.0", "2.0"], done.stderr)
+
+    def test_tables_without_rows_or_with_text_are_refused(self):
+        self.refused("has no rows", "flight.csv", b"t_s,x\n")
+        self.refused("has text that is no number after line 1", "flight.csv", b"t_s,x\n0,abc\n")
+        self.refused("has text that is no number", "flight.csv", b"t_s,x\n0,\xff\n")
+
+    def test_formats_that_contain_themselves_or_are_too_large_are_refused(self):
+        for words, *formats in (("contains itself", b"a:a inner;"), ("contains itself", b"a:b x;", b"b:a[2] y;"),
+                                ("nested more than", *(f"{'a' * k}:{'a' * (k + 1)} x;".encode() for k in range(1, 2000))),
+                                ("more than 65535 fields", b"a:b[999] x;", b"b:float[999] y;"),
+                                ("unknown type 'float[x]'", b"a:float[x] y;"), ("unknown type 'b'", b"a:b y;")):
+            data = ulog()[:16] + message("B", b"\0" * 40) + b"".join(message("F", text) for text in formats)
+            with self.subTest(words):
+                self.refused(words, "flight.ulg", data + message("A", b"\0\1\0a"))
+
+    def test_options_with_bad_numbers_are_refused(self):
+        for arguments, words in ((["--low-pass", "x=abc"], "'abc' is no number"), (["--low-pass", "x=0"], "HZ must be above 0"), (["--rate", "0"], "--rate must be above 0"),
+                                 (["--within", "x=1"], "expected COLUMN=LOW:HIGH"), (["--integral", "x"], "expected NAME=COLUMN")):
+            with self.subTest(arguments):
+                self.refused(words, "flight.csv", b"t_s,x\n0,1\n1,2\n", *arguments)
+        self.refused("has falling times", "flight.csv", b"t_s,x\n0,1\n-1,2\n", "--low-pass", "x=1")
+
+    def test_a_log_is_replaced_as_a_whole_or_not_at_all(self):
+        (self.folder / "log.csv").mkdir()
+        self.refused("log.csv cannot be written", "flight.csv", b"t_s,x\n0,1\n", "-o", self.folder / "absent/log.csv")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["flight.csv", "log.csv"])
+        (self.folder / "log.csv").rmdir()
+        before = self.folder / "before.csv"
+        before.write_text("whole")
+        os.link(before, self.folder / "log.csv")
+        done, _ = self.convert("flight.csv", b"t_s,x\n0,1\n")
+        self.assertEqual(before.read_text(), "whole", done.stderr)  # the earlier file was not written into
+        self.assertEqual(sorted(os.listdir(self.folder)), ["before.csv", "flight.csv", "log.csv"])
 
     def test_files_that_cannot_be_read_are_one_line(self):
         for name, data, words in (("flight.ulg", b"PK\3\4", "is no ULog file"), ("flight.bin", b"", "another ending"),

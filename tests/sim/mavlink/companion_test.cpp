@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "sim/mavlink/perception_messages.h"
@@ -226,6 +227,36 @@ TEST(Companion, SendsUnknownSectorsBeforeTheFlightAndTheWallInIt) {
   EXPECT_EQ(pair.sent[VisionPositionEstimate::kId].back().as<VisionPositionEstimate>()->x, 1.0f) << "from the stand";
   EXPECT_EQ(pair.sent[Odometry::kId].size(), 25u);
   EXPECT_TRUE(pair.sent[OpticalFlow::kId].empty()) << "no camera looks down";
+}
+
+/// ArduPilot takes each of the two messages of optic flow for a reading of its own.
+TEST(Companion, SendsTheFlowOfAnImageInOneMessage) {
+  for (const AutopilotMake make : {AutopilotMake::ardupilot, AutopilotMake::px4}) {
+    CompanionSetup setup = on_stand(make);
+    setup.needs.cameras = {{"down", CameraNeed::Channel::grey}};
+    avoidance::MountedCamera camera{.role = "down", .rate_hz = 20.0};
+    camera.model = vision::camera::PinholeCamera::from_fov(160, 120, std::numbers::pi / 2.0);
+    camera.X_BC.linear() << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+    setup.module.cameras = {camera};
+    Pair pair({}, setup);
+    pair.run_for(1.0);
+    pair.sent.clear();
+    cv::Mat ground(140, 180, CV_8UC1);
+    cv::RNG(7).fill(ground, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(ground, ground, {7, 7}, 2.0);
+    avoidance::NavigationState navigation;
+    navigation.height_above_ground_m = 8.0;
+    constexpr int kImages = 5;
+    for (int i = 0; i < kImages; ++i) {
+      const cv::Mat seen = ground(cv::Rect(10 - i, 10, 160, 120)).clone();
+      const std::vector<avoidance::CameraFrame> frames = {{"down", 50'000'000 * i, seen}};
+      pair.companion.observe(pair.t_ns, {.t_ns = 50'000'000 * i, .frames = frames, .navigation = navigation});
+      pair.step(&navigation);
+    }
+    const size_t plain = pair.sent[OpticalFlow::kId].size(), integrated = pair.sent[OpticalFlowRad::kId].size();
+    EXPECT_EQ(plain, make == AutopilotMake::ardupilot ? kImages - 1 : 0);
+    EXPECT_EQ(integrated, make == AutopilotMake::px4 ? kImages - 1 : 0);
+  }
 }
 
 TEST(Companion, SendsOnlyHeartbeatsToALineWithoutAutopilot) {

@@ -3,7 +3,10 @@
 import contextlib
 import csv
 import io
+import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -35,6 +38,19 @@ class Campaigns(unittest.TestCase):
                 hedgehop.batch(CITY, self.out, seeds="1:2", set={**SHORT, "duration": 0.2}, jobs=1, progress=progress)
             self.assertEqual(len(shown.getvalue().splitlines()), expected, shown.getvalue())
         self.assertNotIn("1/2", shown.getvalue())
+
+    def test_a_warning_of_the_program_is_a_warning_of_python(self):
+        unchecked = {**SHORT, "duration": 0.2, "checks": []}
+        with self.assertWarnsRegex(UserWarning, "1 of 1 flights timed out before the goal"):
+            hedgehop.batch(CITY, self.out, set=unchecked, jobs=1, progress=False)
+
+    def test_tables_are_read_as_utf_8_in_any_locale(self):
+        scenario = pathlib.Path(self.scratch.name) / "café.yaml"
+        scenario.write_text(f"name: cafe\nuse: {CITY}\nduration: 0.2\nfilm: {{enabled: false}}\ndrawing: {{renderer: tiles}}\n", encoding="utf-8")
+        hedgehop.batch(scenario, self.out, jobs=1, progress=False)
+        read = subprocess.run([sys.executable, "-c", "import hedgehop, sys; print(ascii(hedgehop.load(sys.argv[1]).scenario[0][-9:]))", self.out],
+                              env={**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}, capture_output=True, text=True)
+        self.assertEqual(read.stdout, "'caf\\xe9.yaml'\n", read.stderr)
 
     def test_seeds_keep_their_64_bits_and_hashes_their_letters(self):
         table = read_table("seed,trajectory_hash,build\n18446744073709551615,1234567890123456,12345678901234e5\n")

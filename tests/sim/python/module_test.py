@@ -102,6 +102,17 @@ class FromFile(unittest.TestCase):
                 self.assertEqual((status, result), (2, None), said)
                 self.assertIn(text, said)
 
+    def test_a_long_value_is_cut_between_characters(self):
+        for first in ("", "a", "aa"):  # one of three has a character of three bytes across the limit of 80 bytes
+            class LongNeeds:
+                needs = first + "\u20ac" * 100
+
+                def update(self, obs):
+                    return None
+
+            with self.assertRaisesRegex(ValueError, f"'needs' must be a list of cameras.*got '{first}\u20ac{{25,26}}\\.\\.\\."):
+                hedgehop.Simulation(CITY, module=LongNeeds, set=SHORT)
+
     def test_invalid_metrics_and_images_do_not_end_the_flight(self):
         status, result, said = run_program(CITY, self.python("MetricsInAText"), self.folder / "text")
         self.assertEqual((status, result["outcome"], result["flight_time_s"]), (1, "fault", 1.0), said)

@@ -38,8 +38,8 @@ void expect_haze(const vision::camera::Camera& camera, ImageChannel channel) {
       const auto z_m = static_cast<double>(depth.at<float>(v, u));
       double seen = 1.0;
       if (std::isfinite(z_m)) {
-        const double along =
-            camera.is_undistorted_pinhole() ? 1.0 / camera.unit_ray({u + 0.0, v + 0.0})->normalized().z() : 1.0;
+        const bool depth_is_z = std::holds_alternative<vision::camera::PinholeLens>(camera.lens);
+        const double along = depth_is_z ? 1.0 / camera.unit_ray({u + 0.0, v + 0.0})->z() : 1.0;
         seen = std::pow(0.05, z_m * along / 120.0);
       }
       for (int k = 0; k < channels; ++k) {
@@ -58,6 +58,12 @@ const auto kPinhole = vision::camera::PinholeCamera::from_fov(160, 120, 1.3);
 TEST(Haze, FollowsKoschmiedersLawInGrey) { expect_haze(kPinhole, ImageChannel::grey); }
 
 TEST(Haze, FollowsKoschmiedersLawInColor) { expect_haze(kPinhole, ImageChannel::color); }
+
+TEST(Haze, FollowsKoschmiedersLawThroughADistortedPinhole) {
+  const vision::camera::PinholeLens lens{
+      .focal_x_px = 55.0, .focal_y_px = 55.0, .center_u_px = 79.5, .center_v_px = 79.5, .k1 = -0.05};
+  expect_haze({160, 160, lens}, ImageChannel::grey);
+}
 
 TEST(Haze, FollowsKoschmiedersLawThroughAFisheye) {
   const vision::camera::FisheyeLens lens{

@@ -62,6 +62,18 @@ TEST(FailuresInFlight, GpsBiasMakesTheVehicleHoldSoFarOff) {
   EXPECT_NEAR(row_at(flight, 30.0).p_WB_true.x(), 0.0, kHoldsM);
 }
 
+/// With a thousandth of its inertia, the autopilot's torques throw the vehicle around until its numbers overflow.
+TEST(FailuresInFlight, StateThatIsNoLongerFiniteIsAFaultWithTheFiguresBefore) {
+  Scenario scenario = scenario_of("worlds/wall.yaml", {"duration=5", "vehicle={use: ../vehicles/hummingbird.yaml}",
+                                                       "vehicle.mass.inertia=[1e-6, 1e-6, 1e-6]"});
+  for (CameraConfig& camera : scenario.rig.cameras) camera.rate_hz = 500.0;  // on every tick
+  const Flight flight = Simulation(scenario).run();
+  EXPECT_EQ(flight.result.outcome, Outcome::fault);
+  EXPECT_THAT(flight.result.cause, testing::HasSubstr("the vehicle's state stopped being finite at "));
+  EXPECT_GT(flight.result.closest_obstacle.distance_m, 1.0);
+  for (const TrajectoryRow& row : flight.trajectory) EXPECT_TRUE(row.p_WB_true.allFinite());
+}
+
 TEST(FailuresInFlight, FrozenBlackAndLostCamerasDeliverThat) {
   const auto seen = [](const std::string& mode) {
     Scenario scenario =

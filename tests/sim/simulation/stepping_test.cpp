@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,6 +94,27 @@ TEST(Stepping, ResetBeginsTheSameFlightOrThatOfAnotherSeed) {
   expect_equal(used.run(), Simulation(city({"seed=7"})).run());
 }
 
+TEST(Stepping, AfterAResetThatFailedThereIsNoFlightUntilOneSucceeds) {
+  const Scenario scenario = straight();
+  bool refuses = false;
+  Simulation simulation(scenario, [&]() -> std::unique_ptr<avoidance::Module> {
+    if (refuses) throw InputError("refused by the test");
+    return hovering(scenario.rig, {})();
+  });
+  const std::string hash = simulation.run().result.trajectory_hash;
+  refuses = true;
+  EXPECT_THROW(simulation.reset(), InputError);
+  EXPECT_THROW(simulation.t_s(), std::logic_error);
+  EXPECT_THROW(simulation.seen(), std::logic_error);
+  EXPECT_THROW(simulation.scene(), std::logic_error);
+  EXPECT_THROW(simulation.step(), std::logic_error);
+  EXPECT_THROW(simulation.result(), std::logic_error);
+  EXPECT_EQ(simulation.scenario().seed, scenario.seed);
+  refuses = false;
+  simulation.reset();
+  EXPECT_EQ(simulation.run().result.trajectory_hash, hash);
+}
+
 TEST(Stepping, CommandsOfTheCallerGiveTheFlightOfAModuleWithTheSameLaw) {
   Simulation commanded(straight());
   while (!commanded.over()) {
@@ -148,6 +170,26 @@ TEST(Stepping, QueriesDoNotChangeTheFlight) {
     asked.step();
   }
   expect_equal(asked.result(), Simulation(city()).run());
+}
+
+/// Requests the data of all sensors, as an export does.
+class SensorWatcher : public FlightWatcher {
+ public:
+  bool wants_sensors() const override { return true; }
+  void on_sensors(const SensorTick& tick) override { frames += tick.frames.size(); }
+  size_t frames = 0;
+};
+
+/// A camera with automatic exposure has a state, which the images of the hold change.
+TEST(Stepping, AWatcherOfTheSensorsDoesNotChangeTheFlight) {
+  const Scenario scenario =
+      load_scenario(config("zingg2010_corridor_4m.yaml"),
+                    std::vector<std::string>{"duration=2", "start.hold=1", "film.enabled=false",
+                                             "rig.sensor.auto_exposure=0.5", "checks=[]", "drawing.renderer=tiles"});
+  SensorWatcher watcher;
+  const Flight watched = Simulation(scenario, {}, &watcher).run();
+  EXPECT_GT(watcher.frames, 0u);
+  expect_equal(watched, Simulation(scenario).run());
 }
 
 TEST(Stepping, TruthAndEstimateAreThoseOfTheTrajectory) {

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
+#include <utility>
 
 #include "sim/config/outline_texts.h"
 #include "sim/loop/active_module.h"
@@ -103,6 +105,19 @@ TEST(Takeover, OtherCamerasAndALateMomentAreRefused) {
                       std::vector<std::string>{"takeover={at: 500, avoidance: {module: go_to_goal}}"});
       },
       ::testing::ThrowsMessage<InputError>(HasSubstr("'takeover.at': must be before the end of the flight (180 s)")));
+}
+
+TEST(Takeover, ErrorOfItsForeignModuleNamesTheTakeover) {
+  Scenario scenario = scenario_of(module_flights().front());
+  for (const auto& [text, path] : {std::pair("{plugin: absent.so, module: mine}", "'takeover.avoidance.plugin'"),
+                                   std::pair("{python: absent.py, class: Mine}", "'takeover.avoidance.python'")}) {
+    EXPECT_THAT(
+        [&] {
+          fly(load_scenario(HEDGEHOP_SOURCE_DIR "/configs/perez2018_control.yaml",
+                            std::vector<std::string>{fmt::format("takeover={{at: 1, avoidance: {}}}", text)}));
+        },
+        ::testing::ThrowsMessage<InputError>(HasSubstr(path)));
+  }
 }
 
 }  // namespace
