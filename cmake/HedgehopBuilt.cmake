@@ -3,7 +3,11 @@ include_guard()
 
 # hedgehop_require_built(<component> <files>): generator expressions may name targets that are added later.
 function(hedgehop_require_built component)
-  install(CODE "foreach(file IN ITEMS ${ARGN})
+  set(files "")
+  foreach(file IN LISTS ARGN)
+    string(APPEND files " [=[${file}]=]")
+  endforeach()
+  install(CODE "foreach(file IN ITEMS${files})
   if(NOT EXISTS \"\${file}\")
     message(FATAL_ERROR \"\${file} is not built. Build everything that is installed, then install again: scripts/build hedgehop_package\")
   endif()
