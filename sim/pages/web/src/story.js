@@ -98,6 +98,7 @@ function fillStory(host, data, film) {
   const left = host.appendChild(make('div'));
   if (film) left.append(filmStill(film, t_s, `camera images at ${fixed(t_s, 1)} s`));
   if (path.statuses.length) left.append(statusRibbon(path, t_s));
+  host.classList.toggle('text-only', !left.childElementCount);  // a module that failed before its first decision
   const text = host.appendChild(make('div', 'story-text'));
   text.append(make('h2', '', 'Summary'));
   const list = text.appendChild(make('ul'));
