@@ -129,19 +129,26 @@ class Simulation::Impl {
     return flight;
   }
 
-  /// Throws std::logic_error if the last reset failed.
   Episode& episode() {
-    if (!episode_) throw std::logic_error("there is no flight: the last reset failed; reset again");
+    require_flight();
     return *episode_;
   }
-  const Episode& episode() const { return const_cast<Impl*>(this)->episode(); }
+  const Episode& episode() const {
+    require_flight();
+    return *episode_;
+  }
   const Scenario& scenario() const { return scenario_; }
   const scenes::Scene& scene() const {
-    static_cast<void>(episode());
+    require_flight();
     return *environment_->scene;
   }
 
  private:
+  /// Throws std::logic_error if the last reset failed.
+  void require_flight() const {
+    if (!episode_) throw std::logic_error("there is no flight: the last reset failed; reset again");
+  }
+
   void begin(FlightParts parts) {
     require_floor_cells(scenario_, *environment_->scene);
     if (make_module_) parts.module = make_module_();

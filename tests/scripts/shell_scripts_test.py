@@ -14,7 +14,7 @@ RECORD = 'echo "$(basename "$0") $*" >> "$RECORD"\n'
 PROXIES = {"http_proxy": "http://a:1", "HTTPS_PROXY": "http://b:2", "no_proxy": "localhost"}
 # apt before its first update knows no package; in German, the candidate is named otherwise.
 APT_CACHE = """[ -e "$LISTS" ] || exit 0
-[ -n "$2" ] || { echo " 500 http://deb.debian.org/debian bookworm/main amd64 Packages"; exit; }
+[ -n "$2" ] || { echo " 500 http://mirror.invalid/debian bookworm/main amd64 Packages"; exit; }
 [ "$2" != libosmesa6-dev ] || exit 0
 if [ "$LC_ALL" = C ]; then echo "  Candidate: 1.2"; else echo "  Installationskandidat: 1.2"; fi
 """
