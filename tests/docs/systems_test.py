@@ -50,6 +50,13 @@ class Workflow(unittest.TestCase):
         oldest = re.search(r'requires-python = ">=(3\.9)"', (SOURCE / "pyproject.toml").read_text())[1]
         self.assertEqual(jobs["python"]["strategy"]["matrix"]["python"], [oldest, "3.10", "3.11", "3.12", "3.13", "3.14"])
 
+    def test_warnings_are_errors_with_the_compiler_of_development(self):
+        steps = self.workflow["jobs"]["suite"]["steps"]
+        strict = next(i for i, step in enumerate(steps) if "-DHEDGEHOP_WERROR=ON" in step.get("run", ""))
+        first_build = next(i for i, step in enumerate(steps) if step.get("run") == "scripts/quickstart")
+        self.assertLess(strict, first_build)  # a folder that quickstart configures first has no such errors
+        self.assertEqual(steps[strict]["if"], "matrix.system == 'debian:12'")
+
     def test_its_commands_are_shell_and_their_scripts_exist(self):
         for job in self.workflow["jobs"].values():
             for step in job["steps"]:

@@ -64,6 +64,22 @@ class ShellScripts(unittest.TestCase):
         text, calls = self.script("scripts/packages", LISTS=str(lists))
         self.assertEqual((text, calls), ("packages: all packages are installed (this release lacks: libosmesa6-dev)\n", []))
 
+    def test_optional_packages_that_cannot_be_looked_up_are_no_error(self):
+        complete = "packages: all required packages are installed; the optional ones cannot be looked up: libosmesa6-dev\n"
+        self.stand_in("apt-cache", APT_CACHE)
+        for fault, sudo, apt in (("no root", "exit 1\n", "exit 100\n"), ("no network", SUDO, "exit 100\n"), ("no lists after an update", SUDO, RECORD)):
+            self.stand_in("sudo", sudo)
+            self.stand_in("apt-get", apt)
+            with self.subTest(fault):
+                self.stand_in("dpkg-query", '[ "${*: -1}" = libosmesa6-dev ] || echo installed\n')
+                text, _ = self.script("scripts/packages", LISTS=str(self.tree / "lists"))
+                self.assertTrue(text.endswith(complete), text)
+                self.assertNotIn("failed", text)
+        self.stand_in("apt-get", "exit 100\n")
+        self.stand_in("dpkg-query", '[[ ${*: -1} =~ ^(libosmesa6-dev|libfmt-dev)$ ]] || echo installed\n')  # fmt is required
+        text, _ = self.script("scripts/packages", status=1, LISTS=str(self.tree / "lists"))
+        self.assertIn("packages: failed: apt-get update\n", text)
+
     def test_a_linked_file_is_carried_as_its_target(self):
         (self.tree / "run").mkdir()
         (self.tree / "run/stub.conf").write_text("nameserver 127.0.0.53\n")
@@ -142,6 +158,10 @@ class ShellScripts(unittest.TestCase):
         (self.tree / "build/release/CMakeCache.txt").touch()
         _, calls = self.script("scripts/build")
         self.assertNotIn("WERROR", calls[0])  # remains as it was configured
+        shutil.rmtree(self.tree / "build")
+        _, calls = self.script("scripts/slow-checks", "headers")
+        self.assertNotIn("WERROR", calls[0])
+        self.assertEqual(calls[1], "cmake --build build/release -- all_verify_interface_header_sets")
 
     def test_the_container_is_made_from_any_folder(self):
         (self.tree / "bare/bookworm/system").mkdir(parents=True)

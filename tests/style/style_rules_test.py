@@ -5,6 +5,7 @@ import importlib.machinery
 import importlib.util
 import io
 import pathlib
+import re
 import tempfile
 import unittest
 import unittest.mock
@@ -22,7 +23,7 @@ def load_style():
 style = load_style()
 
 GOOD_TREE = {
-    "CMakeLists.txt": 'set(HEDGEHOP_LAYERS\n    "vision:"\n    "avoidance: vision"\n    "sim/loop: vision avoidance")\n',
+    "CMakeLists.txt": 'set(HEDGEHOP_LAYERS\n    "vision:"\n    "avoidance: vision"\n    "sim/loop:")\n',
     "vision/CMakeLists.txt": "hedgehop_library(vision\n  HDRS flow.h\n  SRCS flow.cpp ${CMAKE_CURRENT_BINARY_DIR}/made.cpp)\n",
     "vision/flow.h": "#pragma once\n\n/// Mean flow: [Garratt2009] eq. (2).\nint flow();\n",
     "vision/flow.cpp": '#include "vision/flow.h"\n\n#include <opencv2/core.hpp>\n\n// [Garratt2009]\n// sec. 3\nint flow() { return 1; }\n',
@@ -80,7 +81,12 @@ class Layers(Tree):
 
     def test_a_row_that_looks_down(self):
         table = 'set(HEDGEHOP_LAYERS\n    "vision: avoidance"\n    "avoidance: vision")\n'
-        self.assert_refused("layers", {"CMakeLists.txt": table}, "is not above it")
+        self.assert_refused("layers", {"CMakeLists.txt": table, "vision/flow.h": '#include "avoidance/steer.h"\n'},
+                            "is not above it")
+
+    def test_a_row_that_permits_what_no_file_includes(self):
+        table = 'set(HEDGEHOP_LAYERS\n    "vision:"\n    "avoidance: vision"\n    "sim/loop: vision")\n'
+        self.assert_refused("layers", {"CMakeLists.txt": table}, "sim/loop may use vision, but does not include it")
 
     def test_yaml_outside_the_scenario_room(self):
         self.assert_refused("layers", {"sim/loop/x.h": "#include <yaml-cpp/yaml.h>\n"}, "belongs into sim/config")
@@ -272,6 +278,11 @@ class Sources(Tree):
 
 
 class CommandLine(Tree):
+    def test_ctest_runs_every_rule(self):
+        text = (ROOT / "tests/style/CMakeLists.txt").read_text()
+        listed = re.search(r"foreach\(rule ([^)]*)\)", text)[1].split()
+        self.assertEqual(sorted(listed), sorted(style.RULES))
+
     def test_an_unknown_rule(self):
         with self.assertRaises(SystemExit) as stop, contextlib.redirect_stderr(io.StringIO()):
             style.main(["elegance"])

@@ -65,7 +65,15 @@ class Fields(unittest.TestCase):
         (self.folder / "other").mkdir()
         for option, file in (("barn", "world_*.world"), ("agile", "easy|medium|hard/environment_*.csv"), ("competition", "static_obstacles.csv")):
             self.assertIn(f"--{option} other has no file {file}", self.fields("prepare", "out", "--aerialist", "tests", f"--{option}", "other", status=1))
+        (self.folder / "other/static_obstacles.csv").touch()
+        self.assertIn("--competition other has no file dynamic_obstacles.yaml\n", self.fields("prepare", "out", "--competition", "other", status=1))
         self.assertIn("no folder is given; valid: --aerialist, --barn, --agile, --competition", self.fields("prepare", "out", status=1))
+
+    def test_files_that_cannot_be_read_are_no_traceback(self):
+        (self.folder / "tests/m1_test_0.yaml").write_text("a: 1\n")
+        text = self.fields("prepare", "out", "--aerialist", "tests", status=1)
+        self.assertRegex(text, r"\A.*m1_test_0\.yaml:1:1: missing key 'simulation'\nscripts/fields: 'hedgehop import aerialist tests/m1_test_0.yaml' ended with exit status 2\n\Z")
+        self.assertEqual(self.fields("prepare", "out", "--aerialist", "tests", "--sample", "absent.yaml", status=1), "scripts/fields: absent.yaml: No such file or directory\n")
 
     def test_sample_takes_the_median_of_each_stratum(self):
         (self.folder / "out").mkdir()

@@ -47,15 +47,15 @@ class ConvertLog(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def convert(self, name, data, *arguments):
+    def convert(self, name, data, *arguments, environment=None):
         file, out = self.folder / name, self.folder / "log.csv"
         if data is not None:
             file.write_bytes(data)
         done = subprocess.run([DEBIAN_PYTHON, SOURCE / "scripts/convert-log", file, "-o", out, *arguments],
-                              capture_output=True, text=True)
-        if done.returncode != 0:
+                              capture_output=True, text=True, env={**os.environ, **(environment or {})})
+        if done.returncode != 0 or not out.exists():
             return done, []
-        with out.open() as written:
+        with out.open(encoding="utf-8") as written:
             return done, list(csv.DictReader(written))
 
     def test_a_ulog_gives_one_row_per_sample_of_the_base_topic(self):
@@ -111,6 +111,26 @@ class ConvertLog(unittest.TestCase):
         self.assertEqual([row["height"] for row in rows], ["0.4", "0.5"])
         self.assertAlmostEqual(float(rows[0]["t_s"]), 0.1, 9)
 
+    def test_the_time_of_a_csv_file_starts_at_0(self):
+        for name in ("t_s", "time"):
+            done, rows = self.convert("flight.csv", f"{name},x\n5.0,1\n5.5,2\n".encode(), "--time", name)
+            self.assertEqual([row["t_s"] for row in rows], ["0.0", "0.5"], done.stderr)
+        done, rows = self.convert("flight.csv", b"t_s,time\n7,5.0\n8,5.5\n", "--time", "time")  # not the time of another column
+        self.assertEqual([(row["t_s"], row["time"]) for row in rows], [("0.0", "5.0"), ("0.5", "5.5")], done.stderr)
+
+    def test_a_csv_file_is_utf_8_with_or_without_a_byte_order_mark(self):
+        for mark in (b"", b"\xef\xbb\xbf"):
+            done, _ = self.convert("flight.csv", mark + "t_s,Höhe\n0,1\n".encode(), environment={"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"})
+            self.assertEqual((self.folder / "log.csv").read_bytes(), "t_s,Höhe\r\n0.0,1.0\r\n".encode(), done.stderr)
+        for data in (b"t_s,x\n0,\xff\n", "t_s,x\n0,1\n".encode("utf-16"), b"t_s,x\n0,\"" + 200000 * b"1" + b"\"\n"):
+            self.refused("is no CSV in UTF-8", "flight.csv", data)
+
+    def test_a_csv_is_written_into_a_pipe(self):
+        (self.folder / "flight.csv").write_text("t_s,x\n0,1\n")
+        done, _ = self.convert("flight.csv", None, "-o", "/dev/stdout")
+        self.assertEqual(done.stdout, "t_s,x\n0.0,1.0\n")
+        self.assertEqual((done.returncode, done.stderr), (0, "/dev/stdout: 1 rows, 2 columns\n"))
+
     def refused(self, words, name, data, *arguments):
         done, _ = self.convert(name, data, *arguments)
         self.assertEqual(done.returncode, 2, done.stderr)
@@ -125,8 +145,8 @@ class ConvertLog(unittest.TestCase):
 
     def test_tables_without_rows_or_with_text_are_refused(self):
         self.refused("has no rows", "flight.csv", b"t_s,x\n")
-        self.refused("has text that is no number after line 1", "flight.csv", b"t_s,x\n0,abc\n")
-        self.refused("has text that is no number", "flight.csv", b"t_s,x\n0,\xff\n")
+        self.refused("has text that is no number in line 2: could not convert string to float: 'abc'", "flight.csv", b"t_s,x\n0,abc\n")
+        self.refused("has text that is no number in line 3", "flight.csv", b"t_s,x\n0,1\n1,abc\n")
 
     def test_formats_that_contain_themselves_or_are_too_large_are_refused(self):
         for words, *formats in (("contains itself", b"a:a inner;"), ("contains itself", b"a:b x;", b"b:a[2] y;"),
