@@ -44,8 +44,8 @@ class ImageMonitor {
 
   /// Returns whether the camera is blind. @param frames  of this decision.
   bool is_blind(std::span<const CameraFrame> frames, int64_t t_ns) {
-    const auto frame = std::ranges::find(frames, need_.role, &CameraFrame::role);
-    if (good_ns_ == kNever || (frame != frames.end() && is_good(frame->image))) good_ns_ = t_ns;
+    const CameraFrame* const frame = find_frame(frames, need_.role);
+    if (good_ns_ == kNever || (frame && is_good(frame->image))) good_ns_ = t_ns;
     return t_ns - good_ns_ > limit_ns_;
   }
 
@@ -80,8 +80,7 @@ class StoppingWhenBlind : public Module {
     module_->reset(setup);
     monitors_.clear();
     for (const CameraNeed& need : module_->needs().cameras) {
-      const auto camera = std::ranges::find(setup.cameras, need.role, &MountedCamera::role);
-      monitors_.emplace_back(need, camera->rate_hz);
+      monitors_.emplace_back(need, required_camera(setup, need.role).rate_hz);
     }
     no_signals_.assign(module_->signals().size(), std::nan(""));
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "avoidance/module.h"
 
@@ -14,6 +15,9 @@ inline double heading_rad(const Eigen::Quaterniond& q_WB) {
   const Eigen::Vector3d forward_W = q_WB * Eigen::Vector3d::UnitX();
   return std::atan2(forward_W.y(), forward_W.x());
 }
+
+/// Returns an angle or a difference of headings in [-pi, pi], rad.
+inline double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
 /// Returns a horizontal vector rotated by an angle, positive from x to y: from north to east, or from forward to right.
 inline Eigen::Vector2d rotated(const Eigen::Vector2d& vector, double angle_rad) {

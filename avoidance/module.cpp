@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace hedgehop::avoidance {
 namespace {
-
-const MountedCamera* find_camera(const Setup& setup, const std::string& role) {
-  for (const MountedCamera& camera : setup.cameras) {
-    if (camera.role == role) return &camera;
-  }
-  return nullptr;
-}
 
 int image_type(CameraNeed::Channel channel) {
   switch (channel) {
@@ -47,6 +43,33 @@ struct IsFinite {
   bool operator()(const HoverCommand& c) const { return std::isfinite(c.yaw_rate_radps); }
 };
 
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+/// Returns the type and the values of a command: "HoverCommand", "yaw rate nan rad/s".
+struct TypeAndValues {
+  using Texts = std::pair<std::string, std::string>;
+  Texts operator()(const VelocityCommand& c) const {
+    return {"VelocityCommand", joined("velocity (", c.v_WB_W.x(), ", ", c.v_WB_W.y(), ") m/s, altitude ", c.altitude_m,
+                                      " m, heading ", c.heading_rad, " rad")};
+  }
+  Texts operator()(const PositionCommand& c) const {
+    return {"PositionCommand", joined("position (", c.p_WB.x(), ", ", c.p_WB.y(), ", ", c.p_WB.z(), ") m, heading ",
+                                      c.heading_rad, " rad")};
+  }
+  Texts operator()(const AttitudeCommand& c) const {
+    return {"AttitudeCommand", joined("roll ", c.roll_rad, " rad, pitch ", c.pitch_rad, " rad, heading ", c.heading_rad,
+                                      " rad, altitude ", c.altitude_m, " m")};
+  }
+  Texts operator()(const HoverCommand& c) const {
+    return {"HoverCommand", joined("yaw rate ", c.yaw_rate_radps, " rad/s")};
+  }
+};
+
 void check_frame(const CameraFrame& frame, int64_t now_ns, const Setup& setup, const Needs& needs) {
   const MountedCamera* camera = find_camera(setup, frame.role);
   if (!camera) throw std::logic_error("a frame comes from camera '" + frame.role + "', which reset() did not name");
@@ -72,8 +95,27 @@ bool declares(const Needs& needs, CommandType type) {
 
 }  // namespace
 
+const MountedCamera* find_camera(const Setup& setup, std::string_view role) {
+  const auto camera = std::ranges::find(setup.cameras, role, &MountedCamera::role);
+  return camera == setup.cameras.end() ? nullptr : &*camera;
+}
+
+const MountedCamera& required_camera(const Setup& setup, std::string_view role) {
+  const MountedCamera* const camera = find_camera(setup, role);
+  if (!camera) throw std::invalid_argument("a camera '" + std::string(role) + "' is needed");
+  return *camera;
+}
+
+const CameraFrame* find_frame(std::span<const CameraFrame> frames, std::string_view role) {
+  const auto frame = std::ranges::find(frames, role, &CameraFrame::role);
+  return frame == frames.end() ? nullptr : &*frame;
+}
+
 void confine(Command& command, double speed_limit_mps) {
-  if (!std::visit(IsFinite{}, command)) throw std::invalid_argument("a command must be finite");
+  if (!std::visit(IsFinite{}, command)) {
+    const auto [type, values] = std::visit(TypeAndValues{}, command);
+    throw std::invalid_argument(type + " is not finite: " + values);
+  }
   if (auto* velocity = std::get_if<VelocityCommand>(&command)) {
     const double speed_mps = velocity->v_WB_W.norm();
     if (speed_mps > speed_limit_mps) velocity->v_WB_W *= speed_limit_mps / speed_mps;
@@ -120,8 +162,8 @@ Decision Module::update(const Observation& observation) {
   }
   try {
     confine(decision.command, setup_->limits.speed_mps);
-  } catch (const std::invalid_argument&) {
-    throw std::logic_error("a module's command must be finite");
+  } catch (const std::invalid_argument& error) {
+    throw std::logic_error(std::string("the module's ") + error.what());
   }
   return decision;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -120,6 +121,13 @@ struct Setup {
   uint64_t seed = 0;
   std::optional<AltitudeBand> altitude_band;  ///< empty: the mission holds the altitude of the start or of the goal
 };
+
+/// Returns the camera of a role, null if the rig has none.
+const MountedCamera* find_camera(const Setup& setup, std::string_view role);
+/// The same. Throws std::invalid_argument if the rig has none.
+const MountedCamera& required_camera(const Setup& setup, std::string_view role);
+/// Returns the image of a role, null if there is none at this instant.
+const CameraFrame* find_frame(std::span<const CameraFrame> frames, std::string_view role);
 
 /// A column that a module adds to decisions.csv.
 struct Signal {

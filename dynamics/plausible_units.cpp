@@ -8,6 +8,7 @@
 
 #include "dynamics/hull.h"
 #include "sim/fields/invalid_field.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::dynamics {
 namespace {
@@ -44,12 +45,13 @@ void require_tip_speed(const char* key, const char* rpm_key, const char* radius_
   const bool likely_rpm = tip_by_rpm_mps > kSlowTipMps && tip_by_rpm_mps < kSoundMps;
   if (likely_rpm) {
     throw fields::InvalidField(
-        key, text("%.6g: tip speed %.4g m/s; %.6g rpm is %.3g rad/s; did you mean `%s: %.6g`?", speed_radps, tip_mps,
-                  speed_radps, speed_radps * kRadpsPerRpm, rpm_key, speed_radps));
+        key, text("%.6g: tip speed %.4g m/s, faster than sound; %.6g rpm is %.3g rad/s; did you mean `%s: %.6g`?",
+                  speed_radps, tip_mps, speed_radps, speed_radps * kRadpsPerRpm, rpm_key, speed_radps));
   }
   if (const std::string advice = radius_advice(tip_mps, radius_m); !advice.empty()) {
-    throw fields::InvalidField(radius_key,
-                               text("%.6g: tip speed %.4g m/s at %.4g rad/s", radius_m, tip_mps, speed_radps) + advice);
+    throw fields::InvalidField(
+        radius_key,
+        text("%.6g: tip speed %.4g m/s at %.4g rad/s, faster than sound", radius_m, tip_mps, speed_radps) + advice);
   }
   throw fields::InvalidField(key, text("%.6g: tip speed %.4g m/s, faster than sound", speed_radps, tip_mps));
 }
@@ -140,7 +142,7 @@ std::string rotor_speed_advice(const helicopter::MainRotor& rotor, double weight
 }
 
 std::string stop_unit_advice(double lowest_rad, double highest_rad) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi, kMaxDeg = 0.8;  // 0.8 rad is 45 deg
+  constexpr double kMaxDeg = 0.8;  // 0.8 rad is 45 deg
   const double written = highest_rad * kDegPerRad;
   if (!(written > 0.0 && written < kMaxDeg && std::abs(lowest_rad) * kDegPerRad < kMaxDeg)) return "";
   return text("; %.3g rad is %.3g deg", written, written * kDegPerRad);

@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <variant>
 
 #include "dynamics/helicopter/trim.h"
 #include "dynamics/multicopter/multicopter_trim.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::dynamics {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// A blade angle with the stops of its servo.
 Quantity blade_angle(const char* name, double angle_rad, const helicopter::ServoConfig& servo, const char* group,

@@ -12,6 +12,7 @@
 #include "scenes/textures/park_textures.h"
 #include "scenes/textures/stone_textures.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::scenes {
 
@@ -32,13 +33,12 @@ void require_box(const BoxConfig& c, const std::string& path) {
   constexpr double kMaxError = 0.01;
   fields::require_bounds(c, path);
   if (c.quaternion.empty()) return;
-  const std::string key = path + ".quaternion: ";
-  if (c.quaternion.size() != 4)
-    throw std::invalid_argument(key + std::to_string(c.quaternion.size()) + " numbers; valid: 4 (w, x, y, z)");
+  const std::string key = path + ".quaternion";
+  const size_t count = c.quaternion.size();
+  fields::require(count == 4, key, std::to_string(count) + " numbers; valid: 4 (w, x, y, z)");
   const double length = Eigen::Map<const Eigen::Vector4d>(c.quaternion.data()).norm();
-  if (!(std::abs(length - 1.0) <= kMaxError))
-    throw std::invalid_argument(key + "its length is " + std::to_string(length) + "; valid: 1");
-  if (c.heading_rad != 0.0) throw std::invalid_argument(key + "a box has a heading or a quaternion, not both");
+  fields::require(std::abs(length - 1.0) <= kMaxError, key, "its length is " + std::to_string(length) + "; valid: 1");
+  fields::require(c.heading_rad == 0.0, key, "a box has a heading or a quaternion, not both");
 }
 
 }  // namespace
@@ -135,8 +135,8 @@ MoverConfig loaded(const std::vector<MoverConfig>& movers, size_t k) {
   try {
     load_motion(mover.motion);
     require_motion(mover.motion);
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument("movers." + std::to_string(k) + "." + fault.what());
+  } catch (const fields::InvalidField& fault) {
+    throw fields::InvalidField("movers." + std::to_string(k) + "." + fault.key(), fault.message());
   }
   return mover;
 }

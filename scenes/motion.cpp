@@ -111,7 +111,7 @@ void load_motion(Motion& motion) {
   try {
     table->poses = std::make_shared<const PoseTable>(read_pose_table(table->file));
   } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument("motion.file: '" + table->file + "': " + fault.what());
+    throw fields::InvalidField("motion.file", "'" + table->file + "': " + fault.what());
   }
 }
 
@@ -121,7 +121,7 @@ void require_motion(const Motion& motion) {
     require(!straight->points.empty(), "motion.points", 0.0, "at least one point");
   }
   if (const auto* table = std::get_if<TableMotion>(&motion); table && !table->poses) {
-    throw std::invalid_argument("motion.file: '" + table->file + "' is not loaded");
+    throw fields::InvalidField("motion.file", "'" + table->file + "' is not loaded");
   }
 }
 

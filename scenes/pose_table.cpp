@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "sim/fields/bounds.h"
+#include "sim/fields/file_fault.h"
 #include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::scenes {
@@ -78,7 +80,7 @@ PoseTable::Rates PoseTable::rates(double t_s) const {
 PoseTable parse_pose_table(std::string_view text) {
   std::vector<PoseRow> rows;
   text = without_utf8_mark(text);
-  int line = 0;
+  int line = 0, line_before = 0;  // of the row before
   while (!text.empty()) {
     std::string_view row = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), row.size() + 1));
@@ -94,14 +96,18 @@ PoseTable parse_pose_table(std::string_view text) {
       row.remove_prefix(std::min(row.size(), here.size() + 1));
     }
     rows.push_back(row_of(cells, line));
+    if (line_before > 0 && !(rows.back().t_s > rows[rows.size() - 2].t_s)) {
+      refuse(line, "the time " + fields::decimal(rows.back().t_s) + " s is not after that of line " +
+                       std::to_string(line_before));
+    }
+    line_before = line;
   }
   return PoseTable(std::move(rows));
 }
 
 PoseTable read_pose_table(const std::filesystem::path& file) {
+  if (const std::string fault = file_fault(file); !fault.empty()) throw std::invalid_argument(fault);
   std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) throw std::invalid_argument("it cannot be read");
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_pose_table(text.view());

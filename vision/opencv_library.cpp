@@ -1,21 +1,12 @@
 #include "vision/opencv_library.h"
 
-#include <dlfcn.h>
-
-#include <stdexcept>
-#include <string>
+#include "sim/fields/own_library.h"
 
 namespace hedgehop::vision {
 
 const OpenCvLibrary& opencv_library() {
-  static const OpenCvLibrary& loaded = []() -> const OpenCvLibrary& {
-    // It remains loaded. It is found by the run path of this code.
-    void* const library = ::dlopen(kOpenCvLibrary, RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) throw std::runtime_error(std::string("incomplete installation: ") + ::dlerror());
-    auto* const get = reinterpret_cast<GetOpenCvLibrary*>(::dlsym(library, kGetOpenCvLibrary));
-    if (get == nullptr) throw std::runtime_error(std::string("incomplete installation: ") + ::dlerror());
-    return get();
-  }();
+  static const OpenCvLibrary& loaded =
+      own_library_function<GetOpenCvLibrary>(kOpenCvLibrary, kGetOpenCvLibrary, "incomplete installation: ")();
   return loaded;
 }
 

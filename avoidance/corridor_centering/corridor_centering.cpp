@@ -56,8 +56,7 @@ class CorridorCentering final : public Module {
   }
 
   void do_reset(const Setup& setup) override {
-    const auto camera = std::ranges::find(setup.cameras, WallObserver::kRole, &MountedCamera::role);
-    observer_.emplace(config_.law, config_.attitude_lag_s, *camera);
+    observer_.emplace(config_.law, config_.attitude_lag_s, required_camera(setup, WallObserver::kRole));
     radius_m_ = setup.limits.radius_m;
     published_ = CenteringLaw(published_config());
     pursuit_ = Pursuit(pursuit_config(radius_m_));
@@ -103,8 +102,8 @@ class CorridorCentering final : public Module {
 
   /// Reads the image, if there is one. @return whether it was compared with the previous image.
   bool observe(const Observation& observation) {
-    const auto frame = std::ranges::find(observation.frames, WallObserver::kRole, &CameraFrame::role);
-    if (frame == observation.frames.end()) return false;
+    const CameraFrame* const frame = find_frame(observation.frames, WallObserver::kRole);
+    if (!frame) return false;
     std::optional<WallObservation> seen = observer_->update(*frame, observation.navigation);
     if (!seen) return false;
     seen_ = std::move(seen);

@@ -77,7 +77,7 @@ Command Pursuit::update(const Observation& observation, const WallObservation* s
   bool fresh = known_ns_ >= 0 && seconds(now_ns - known_ns_) <= kPatienceS;
   if (turn_from_rad_) {
     constexpr double kTurnRad = 25.0 * std::numbers::pi / 180.0;  // minimum turn that shows another direction
-    if (std::abs(std::remainder(heading - *turn_from_rad_, 2.0 * M_PI)) < kTurnRad) return turn_away();
+    if (std::abs(wrap_angle(heading - *turn_from_rad_)) < kTurnRad) return turn_away();
     turn_from_rad_.reset();
     known_ns_ = probing_ns_ = dark_ns_ = -1;  // the old measurements belong to another direction
     fresh = false;
@@ -115,11 +115,10 @@ Command Pursuit::update(const Observation& observation, const WallObservation* s
 Command Pursuit::fly(const Observation& observation, double speed_mps, double course_rad, double dt_s) {
   course_rad_ = course_rad;
   const double heading = heading_rad(observation.navigation.q_WB_est);
-  const double travel_rad = std::remainder(heading + course_rad, 2.0 * M_PI);
+  const double travel_rad = wrap_angle(heading + course_rad);
   if (!heading_rad_) heading_rad_ = heading;
   const double share = -std::expm1(-dt_s / kHeadingS);
-  heading_rad_ =
-      std::remainder(*heading_rad_ + share * std::remainder(travel_rad - *heading_rad_, 2.0 * M_PI), 2.0 * M_PI);
+  heading_rad_ = wrap_angle(*heading_rad_ + share * wrap_angle(travel_rad - *heading_rad_));
   return VelocityCommand{speed_mps * Eigen::Vector2d(std::cos(travel_rad), std::sin(travel_rad)),
                          -observation.goal.p_WG.z(), *heading_rad_};
 }

@@ -33,7 +33,7 @@ class LandmarkMapModule final : public Module {
   }
 
   void do_reset(const Setup& setup) override {
-    const MountedCamera& camera = *std::ranges::find(setup.cameras, kRole, &MountedCamera::role);
+    const MountedCamera& camera = required_camera(setup, kRole);
     observer_.emplace(config_.observer, config_.law, camera);
     flow_.reset();
     if (stops_before_walls() && config_.time_to_contact_s > 0.0 && config_.observer.source != CornerSource::corners) {
@@ -51,8 +51,7 @@ class LandmarkMapModule final : public Module {
         reckons() ? reckoning_.update(observation.navigation, seconds(observation.t_ns)) : observation.navigation;
     at_NE_ = navigation.p_WB_est.head<2>();
     if (!start_NE_) begin();
-    const auto frame = std::ranges::find(observation.frames, kRole, &CameraFrame::role);
-    if (frame != observation.frames.end()) look(*frame, navigation);
+    if (const CameraFrame* const frame = find_frame(observation.frames, kRole)) look(*frame, navigation);
 
     Decision decision;
     if (stops_before_walls() &&

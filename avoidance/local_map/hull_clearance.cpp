@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "avoidance/heading.h"
+
 namespace hedgehop::avoidance::local_map {
 namespace {
 
@@ -60,7 +62,7 @@ HullDiscs::HullDiscs(const VehicleLimits& limits) : discs_{{Eigen::Vector2d::Zer
 }
 
 std::vector<HullDiscs::Disc> sweep(const HullDiscs& hull_discs, double from_rad, double to_rad, double step_m) {
-  const double turn_rad = std::remainder(to_rad - from_rad, 2.0 * M_PI);
+  const double turn_rad = wrap_angle(to_rad - from_rad);
   std::vector<HullDiscs::Disc> swept;
   for (const HullDiscs::Disc& disc : hull_discs.discs()) {
     const int steps = static_cast<int>(std::ceil(std::abs(turn_rad) * disc.p_H.norm() / step_m));
@@ -106,7 +108,7 @@ ClearanceDeficit HullClearance::deficit(const LevelSlice& slice, const PathState
 double HullClearance::free_turn_rad(const LevelSlice& slice, const std::vector<PathState>& path, double from_rad,
                                     double to_rad) const {
   constexpr double kStepRad = 0.2, kSlackM = 0.02;
-  const double turn_rad = std::remainder(to_rad - from_rad, 2.0 * M_PI);
+  const double turn_rad = wrap_angle(to_rad - from_rad);
   const int steps = hull_discs_.discs().size() > 1 ? static_cast<int>(std::ceil(std::abs(turn_rad) / kStepRad)) : 0;
   const auto worst_of = [&](const HullClearance& turned) {
     ClearanceDeficit most;

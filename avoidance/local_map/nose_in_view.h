@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "avoidance/heading.h"
 #include "avoidance/local_map/moving_obstacles.h"
 #include "avoidance/local_map/stop_planner.h"
 
@@ -24,7 +25,7 @@ inline double nose_in_view(const PathState& now, double nose_rad, const MovingOb
   constexpr double kShareOfView = 0.6, kAsideRad = 0.3, kFastMps = 3.0;
   const auto near_to = [&](const Eigen::Vector2d& along_W, double most_rad) {
     const double along_rad = std::atan2(along_W.y(), along_W.x());
-    nose_rad = along_rad + std::clamp(std::remainder(nose_rad - along_rad, 2.0 * M_PI), -most_rad, most_rad);
+    nose_rad = along_rad + std::clamp(wrap_angle(nose_rad - along_rad), -most_rad, most_rad);
   };
   if (obstacle) near_to(obstacle->p_W - now.p_W, kShareOfView * half_view_rad);
   if ((obstacle || !inspects) && now.v_W.norm() > kFastMps) near_to(now.v_W, kAsideRad);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "avoidance/heading.h"
+
 namespace hedgehop::avoidance::local_map {
 
 bool is_unknown(const LevelSlice& slice, const Eigen::Vector2d& p_W) {
@@ -32,7 +34,7 @@ std::optional<Eigen::Vector2d> unknown_on_path(const LevelSlice& slice, const Hu
 bool points_at(const Eigen::Vector2d& place_W, const Eigen::Vector2d& p_W, double heading_rad) {
   constexpr double kAimedRad = 0.35;
   const Eigen::Vector2d off_W = place_W - p_W;
-  return std::abs(std::remainder(std::atan2(off_W.y(), off_W.x()) - heading_rad, 2.0 * M_PI)) < kAimedRad;
+  return std::abs(wrap_angle(std::atan2(off_W.y(), off_W.x()) - heading_rad)) < kAimedRad;
 }
 
 double ProgressTimer::stalled_s(std::optional<double> route_m, double t_s) {

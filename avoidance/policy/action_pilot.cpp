@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "avoidance/heading.h"
 
@@ -29,8 +28,7 @@ VelocityCommand ActionPilot::fly(const Action& action, const NavigationState& na
   const Action share = action.cwiseMax(-1.0).cwiseMin(1.0);
   const double heading = heading_rad(navigation.q_WB_est), altitude_m = -navigation.p_WB_est.z();
   const double higher_m = altitude_m_ + kClimbMps * share[2] * step_s - altitude_m;
-  const double further_rad =
-      std::remainder(heading_rad_ + kTurnRadps * share[3] * step_s - heading, 2.0 * std::numbers::pi);
+  const double further_rad = wrap_angle(heading_rad_ + kTurnRadps * share[3] * step_s - heading);
   altitude_m_ = altitude_m + std::clamp(higher_m, -kAheadM, kAheadM);
   heading_rad_ = heading + std::clamp(further_rad, -kAheadRad, kAheadRad);
   return {rotated(speed_limit_mps * share.head<2>(), heading), altitude_m_, heading_rad_};

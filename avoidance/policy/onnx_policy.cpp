@@ -51,6 +51,10 @@ class OnnxPolicy final : public Module {
  public:
   explicit OnnxPolicy(const OnnxPolicyConfig& config) : config_(config) {
     fields::require_bounds(config);
+    for (size_t i = 0; i < config.images.size(); ++i) {
+      fields::require(!config.images[i].far_m || config.images[i].channel == CameraNeed::Channel::depth,
+                      "images." + std::to_string(i) + ".far", "only for the channel depth");
+    }
     if (config.images.empty() && !config.state) throw std::invalid_argument("needs 'images' or 'state'");
     network_ = network_of(config);
   }
@@ -73,12 +77,12 @@ class OnnxPolicy final : public Module {
     last_t_ns_.reset();
     blobs_.clear();
     for (const PolicyImage& image : config_.images) {
-      const auto camera = std::ranges::find(setup.cameras, image.camera, &MountedCamera::role);
+      const MountedCamera& camera = required_camera(setup, image.camera);
       const int channels = image.channel == CameraNeed::Channel::color ? 3 : 1;
       const bool is_depth = image.channel == CameraNeed::Channel::depth;
-      const double before_first = is_depth ? (image.far_m - image.mean) * image.scale : 0.0;
-      blobs_.push_back(cv::Mat({1, channels, camera->model.height_px, camera->model.width_px}, CV_32F, before_first));
-      first_step_s_ = std::max(first_step_s_, 1.0 / camera->rate_hz);
+      const double before_first = is_depth ? (image.far_m.value_or(kDefaultFarM) - image.mean) * image.scale : 0.0;
+      blobs_.push_back(cv::Mat({1, channels, camera.model.height_px, camera.model.width_px}, CV_32F, before_first));
+      first_step_s_ = std::max(first_step_s_, 1.0 / camera.rate_hz);
     }
     run(State::Zero());  // reports a misfit before the flight
   }
@@ -100,8 +104,8 @@ class OnnxPolicy final : public Module {
       const PolicyImage& image = config_.images[i];
       if (image.camera != frame.role) continue;
       const bool is_depth = image.channel == CameraNeed::Channel::depth;
-      network_->to_input(is_depth ? bounded_depth(frame.image, image.far_m) : frame.image, image.scale, image.mean,
-                         blobs_[i]);
+      network_->to_input(is_depth ? bounded_depth(frame.image, image.far_m.value_or(kDefaultFarM)) : frame.image,
+                         image.scale, image.mean, blobs_[i]);
     }
   }
 

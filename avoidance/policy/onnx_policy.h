@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,13 +12,15 @@
 
 namespace hedgehop::avoidance::policy {
 
+inline constexpr double kDefaultFarM = 100.0;  ///< of hedgehop.Env
+
 /// An image input of a network, named `<camera>_<channel>`: float32, 1 x channels x rows x columns.
 struct PolicyImage {
   std::string camera;
   CameraNeed::Channel channel = CameraNeed::Channel::grey;  ///< not `corners`
   double mean = 0.0;
   double scale = 1.0 / 255.0;
-  double far_m = 100.0;  ///< `depth` only; the default of hedgehop.Env
+  std::optional<double> far_m = {};  ///< `depth` only; default: kDefaultFarM
 
   std::string input() const;
 };
@@ -33,7 +36,8 @@ void describe(Visitor& v, fields::ConfigOf<PolicyImage> auto& c) {
   v("far", c.far_m,
     {.unit = "m",
      .above = 0.0,
-     .meaning = "maximum depth, also the depth of missing and unknown surfaces; only for the channel depth"});
+     .meaning = "maximum depth, also the depth of missing and unknown surfaces; default: 100 m; only for the channel "
+                "depth"});
 }
 
 /// Flies the output of a network. The inputs are images and, if `state` is true, `state` (1 x 10, action_pilot.h). The

@@ -35,7 +35,7 @@ Command TurnThenMove::go_to(const Eigen::Vector3d& p_W, const NavigationState& n
   const double now_rad = heading_rad(navigation.q_WB_est);
   constexpr double kTooNearToFaceM = 1.0;
   const double bearing_rad = distance_m > kTooNearToFaceM ? std::atan2(path_W.y(), path_W.x()) : now_rad;
-  if (std::abs(std::remainder(bearing_rad - now_rad, 2.0 * M_PI)) > kAlignedRad) {
+  if (std::abs(wrap_angle(bearing_rad - now_rad)) > kAlignedRad) {
     if (!wait_W_) wait_W_ = p_WB;
     return PositionCommand{*wait_W_, bearing_rad};
   }

@@ -1,6 +1,5 @@
 #include "avoidance/stereo/disparity_source.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,18 +10,7 @@ namespace {
 constexpr bool kPinhole = true;
 constexpr float kMaxSigmaPerM = 0.1F;  // of depth from motion, 1/m; free space then ends nearer than 5 m
 
-const MountedCamera& camera_of(const Setup& setup, const std::string& role) {
-  const auto camera = std::ranges::find(setup.cameras, role, &MountedCamera::role);
-  if (camera == setup.cameras.end()) throw std::invalid_argument("a camera '" + role + "' is needed");
-  return *camera;
-}
-
 std::string role_of(const std::string& pair, const char* role) { return pair.empty() ? role : pair + "_" + role; }
-
-const CameraFrame* frame_of(std::span<const CameraFrame> frames, const std::string& role) {
-  const auto frame = std::ranges::find(frames, role, &CameraFrame::role);
-  return frame == frames.end() ? nullptr : &*frame;
-}
 
 void require_one_rate(const MountedCamera& a, const MountedCamera& b) {
   if (a.rate_hz == b.rate_hz) return;
@@ -78,14 +66,16 @@ DisparitySource::DisparitySource(From from, Grey grey, const vision::stereo::Ste
       depth_(role_of(pair, kDepth)),
       front_(role_of(pair, kFront)),
       matcher_(config) {
-  const MountedCamera& camera = camera_of(setup, from == From::stereo ? left_ : from == From::motion ? front_ : depth_);
+  const MountedCamera& camera = required_camera(setup, from == From::stereo   ? left_
+                                                       : from == From::motion ? front_
+                                                                              : depth_);
   if (from == From::stereo) {
-    geometry_ = geometry_of_pair(camera, camera_of(setup, right_));
+    geometry_ = geometry_of_pair(camera, required_camera(setup, right_));
   } else {
     if (from == From::motion) motion_.emplace(camera);
     const vision::camera::PinholeCamera lens = camera.model.pinhole();
     geometry_ = {lens.focal_x_px, lens.center_u_px, lens.center_v_px, kBaselineM};
-    if (from == From::camera && grey == Grey::needed) require_one_view(camera_of(setup, left_), camera);
+    if (from == From::camera && grey == Grey::needed) require_one_view(required_camera(setup, left_), camera);
   }
   X_BC_ = camera.X_BC;
   image_ = {camera.model.width_px, camera.model.height_px};
@@ -97,7 +87,7 @@ bool DisparitySource::update(std::span<const CameraFrame> frames, const Navigati
 }
 
 bool DisparitySource::match(std::span<const CameraFrame> frames) {
-  const CameraFrame *left = frame_of(frames, left_), *right = frame_of(frames, right_);
+  const CameraFrame *left = find_frame(frames, left_), *right = find_frame(frames, right_);
   if (!left || !right || left->t_ns != right->t_ns || left->t_ns <= t_ns_) return false;
   t_ns_ = left->t_ns;
   left->image.copyTo(grey_);
@@ -107,7 +97,7 @@ bool DisparitySource::match(std::span<const CameraFrame> frames) {
 }
 
 bool DisparitySource::convert(std::span<const CameraFrame> frames) {
-  const CameraFrame *depth = frame_of(frames, depth_), *left = frame_of(frames, left_);
+  const CameraFrame *depth = find_frame(frames, depth_), *left = find_frame(frames, left_);
   if (!depth || depth->t_ns <= t_ns_) return false;
   if (grey_use_ == Grey::needed) {
     if (!left || left->t_ns != depth->t_ns) return false;
@@ -123,7 +113,7 @@ bool DisparitySource::convert(std::span<const CameraFrame> frames) {
 }
 
 bool DisparitySource::compare(std::span<const CameraFrame> frames, const NavigationState& navigation) {
-  const CameraFrame* front = frame_of(frames, front_);
+  const CameraFrame* front = find_frame(frames, front_);
   if (!front || front->t_ns <= t_ns_) return false;
   t_ns_ = front->t_ns;
   front->image.copyTo(grey_);

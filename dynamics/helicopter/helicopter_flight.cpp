@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "dynamics/helicopter/trim.h"
 #include "dynamics/plausible_units.h"
 #include "dynamics/rigid_body.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::dynamics::helicopter {
 namespace {
@@ -52,7 +52,6 @@ BladeAngles blade_angles(const HelicopterFlightState& state) {
 std::string stop_words(size_t servo, double angle_rad, const ServoConfig& config) {
   constexpr std::array<const char*, 4> kNames = {"main collective", "lateral cyclic", "longitudinal cyclic",
                                                  "tail collective"};
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), "the %s must be %.3g deg, its stops are %.4g and %.4g deg", kNames[servo],
                 angle_rad * kDegPerRad, config.lowest_rad * kDegPerRad, config.highest_rad * kDegPerRad);

@@ -6,6 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::dynamics::identification {
 namespace {
 
@@ -99,7 +101,7 @@ FrequencyResponse linear_response(const control::LinearSystem& linear, const std
 
 double mismatch(const FrequencyResponse& measured, const FrequencyResponse& model, Eigen::Index state,
                 Eigen::Index input) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi, kPhaseWeight = 0.01745, kCost = 20.0;
+  constexpr double kPhaseWeight = 0.01745, kCost = 20.0;
   double sum = 0.0, count = 0.0;
   for (size_t i = 0; i < measured.responses.size(); ++i) {
     const double coherence = measured.coherence(static_cast<Eigen::Index>(i), state);

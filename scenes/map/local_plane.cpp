@@ -1,13 +1,13 @@
 #include "scenes/map/local_plane.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::scenes::map {
 namespace {
 
 constexpr double kEquatorRadiusM = 6378137.0, kFlattening = 1.0 / 298.257223563;  // [WGS84] table 3.1
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 Eigen::Vector3d geocentric_m(const GeoPoint& place) {
   const double latitude = place.latitude_deg * kRadPerDeg, longitude = place.longitude_deg * kRadPerDeg;

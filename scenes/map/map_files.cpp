@@ -1,30 +1,24 @@
 #include "scenes/map/map_files.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "scenes/terrain/heightmap.h"
+#include "sim/fields/file_fault.h"
+#include "sim/fields/own_library.h"
 
 namespace hedgehop::scenes::map {
 namespace {
 
 void require_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
-  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument("it is not a regular file");
+  if (const std::string fault = file_fault(file); !fault.empty()) throw std::invalid_argument(fault);
 }
 
-/// Returns a function of a library, which remains loaded. It is found by the run path of this code.
 template <class Function>
 [[maybe_unused]] Function* loaded(const char* library, const char* name) {
-  void* const handle = ::dlopen(library, RTLD_NOW | RTLD_LOCAL);
-  void* const function = handle != nullptr ? ::dlsym(handle, name) : nullptr;
-  if (function == nullptr) throw std::invalid_argument(std::string("this installation cannot read it: ") + ::dlerror());
-  return reinterpret_cast<Function*>(function);
+  return own_library_function<Function>(library, name, "this installation cannot read it: ");
 }
 
 /// Calls a function of a library, with its errors as those of this library.

@@ -1,4 +1,5 @@
 #include "scenes/map/tags.h"
+#include "sim/fields/shortened.h"
 
 #include <algorithm>
 #include <array>
@@ -22,11 +23,11 @@ std::optional<double> take_number(std::string_view& text) {
 /// Returns a text that fits into one line.
 std::string printable(std::string_view text) {
   constexpr size_t kMaxSize = 60;
-  std::string line(text.substr(0, kMaxSize));
+  std::string line = shortened(text, kMaxSize);
   for (char& c : line) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  return text.size() > kMaxSize ? line + "..." : line;
+  return line;
 }
 
 std::optional<double> length(std::string_view text) {

@@ -72,7 +72,7 @@ std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, c
     try {
       line = add_mesh(import, import.origin_ENU.value_or(origin_ENU / import.scale), scene);
     } catch (const std::exception& fault) {
-      throw fields::InvalidField("imports.file", "'" + import.file + "': " + fault.what());
+      throw fields::InvalidField("imports." + std::to_string(k) + ".file", "'" + import.file + "': " + fault.what());
     }
     if (line.empty()) continue;
     line.insert(0, "'" + import.file + "': ");

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "scenes/mesh/dae_check.h"
+#include "sim/fields/file_fault.h"
 #include "sim/fields/utf8_mark.h"
 
 namespace hedgehop::scenes::mesh {
@@ -124,12 +125,13 @@ std::string require_importable(const std::filesystem::path& mesh) {
     if (fault) throw std::invalid_argument(why);
   };
   std::error_code error;
-  refuse_if(!std::filesystem::exists(mesh, error), "there is no such file");
-  refuse_if(!std::filesystem::is_regular_file(mesh, error), "it is not a regular file");
+  const std::string fault = file_fault(mesh);
+  refuse_if(!fault.empty(), fault);
   refuse_if(!may_be_read(mesh), "it is larger than 256 MB");
   const std::string suffix = suffix_of(mesh);
-  refuse_if(std::ranges::find(kSuffixes, suffix) == kSuffixes.end(),
-            "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
+  refuse_if(
+      std::ranges::find(kSuffixes, suffix) == kSuffixes.end(),
+      "its suffix '" + suffix + "' is unknown; valid: .obj, .gltf, .glb, .dae, .ply, .stl; of a world: .sdf, .world");
   std::ifstream stream(mesh, std::ios::binary);
   std::string text(std::filesystem::file_size(mesh, error), '\0');
   stream.read(text.data(), std::ssize(text));

@@ -11,6 +11,7 @@
 
 #include "scenes/mesh/mesh_reader.h"
 #include "scenes/mesh/obj_text.h"
+#include "sim/fields/shortened.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -83,7 +84,7 @@ class ObjReader {
     while (found.count < size && !rest.empty() && rest.front() != '#') {
       const std::string_view word = take_word(rest);
       const std::optional<double> number = number_of(word);
-      if (!number) fail("'" + std::string(word.substr(0, 40)) + "' is not a number");
+      if (!number) fail("'" + shortened(word, 40) + "' is not a number");
       found.values[found.count++] = *number;
     }
     if (found.count < required) fail("fewer than " + std::to_string(required) + " numbers");
@@ -140,8 +141,7 @@ class ObjReader {
       if (at == last) return corner;
       if (*at++ != '/') break;
     }
-    fail("'" + std::string(word.substr(0, 40)) +
-         "' is not a corner of a face; valid: indices such as 1, -1, 1/2 or 1//3");
+    fail("'" + shortened(word, 40) + "' is not a corner of a face; valid: indices such as 1, -1, 1/2 or 1//3");
   }
 
   void require_indices() const {

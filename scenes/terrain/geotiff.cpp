@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "scenes/mesh/tiff_memory.h"
@@ -25,6 +26,29 @@ constexpr TIFFDataType kDataType = std::is_same_v<T, double>     ? TIFF_DOUBLE
                                    : std::is_same_v<T, uint16_t> ? TIFF_SHORT
                                                                  : TIFF_ASCII;
 
+std::string tag_name(uint32_t tag) {
+  for (const auto& [number, name] : {std::pair{kPixelScale, "ModelPixelScale"},
+                                     {kTiepoints, "ModelTiepoint"},
+                                     {kTransformation, "ModelTransformation"},
+                                     {kGeoKeys, "GeoKeyDirectory"},
+                                     {kNoData, "GDAL_NODATA"}}) {
+    if (number == tag) return name;
+  }
+  return std::to_string(tag);
+}
+
+std::string type_name(TIFFDataType type) {
+  for (const auto& [one, name] : {std::pair{TIFF_DOUBLE, "64-bit floats"},
+                                  {TIFF_FLOAT, "32-bit floats"},
+                                  {TIFF_LONG, "32-bit integers"},
+                                  {TIFF_SHORT, "16-bit integers"},
+                                  {TIFF_BYTE, "8-bit integers"},
+                                  {TIFF_ASCII, "text"}}) {
+    if (one == type) return name;
+  }
+  return "values of the type " + std::to_string(type);
+}
+
 /// Returns the values of a tag that libtiff itself does not know. Their form depends on whether another library of the
 /// process has declared it.
 template <class T>
@@ -32,8 +56,8 @@ std::vector<T> tag_values(TIFF* tiff, uint32_t tag) {
   const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
   if (!field) return {};
   if (TIFFFieldDataType(field) != kDataType<T>) {  // the values would be read past their end
-    throw std::invalid_argument("its tag " + std::to_string(tag) + " has the data type " +
-                                std::to_string(TIFFFieldDataType(field)) + "; valid: " + std::to_string(kDataType<T>));
+    throw std::invalid_argument("its tag " + tag_name(tag) + " has " + type_name(TIFFFieldDataType(field)) +
+                                "; valid: " + type_name(kDataType<T>));
   }
   T* values = nullptr;
   if (TIFFFieldPassCount(field) == 0) {  // text

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/mesh/png_memory.h"
+#include "sim/fields/file_fault.h"
 
 namespace hedgehop::scenes::terrain {
 
@@ -16,9 +17,9 @@ constexpr std::uintmax_t kMaxHeightmapBytes = 64'000'000;
 
 std::vector<uint8_t> bytes_of_file(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
-  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::file_size(file, error) > kMaxHeightmapBytes) {
-    throw std::invalid_argument("it is not a regular file of at most 64 MB");
+  if (const std::string fault = file_fault(file); !fault.empty()) throw std::invalid_argument(fault);
+  if (std::filesystem::file_size(file, error) > kMaxHeightmapBytes) {
+    throw std::invalid_argument("it is larger than 64 MB");
   }
   std::ifstream stream(file, std::ios::binary);
   std::vector<uint8_t> bytes(std::filesystem::file_size(file, error));

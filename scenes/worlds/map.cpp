@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "scenes/map/traffic.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
+#include "sim/fields/quantities.h"
 #include "sim/libm/random.h"
 
 namespace hedgehop::scenes::worlds {
@@ -172,7 +172,6 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
   fields::require_bounds(config);
   require_texture_size(config.texture_size_px);
   fields::require(!config.osm.empty(), "osm", "is required");
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const map::LocalPlane plane({config.origin.latitude_rad * kDegPerRad, config.origin.longitude_rad * kDegPerRad});
   map::OsmObjects objects = read_file("osm", config.osm, [&] { return map::read_osm(config.osm); });
 

@@ -90,10 +90,7 @@ class Gatherer {
     overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
     Order order{.group = name, .scenario = file.lexically_normal(), .overrides = overrides};
     try {
-      const LoadedScenario loaded = load_flight(file, overrides);
-      const Scenario& scenario = loaded.scenario;
-      order.inputs = loaded.inputs;
-      order.scenario_sha256 = scenario_sha256(scenario, file.parent_path());
+      const Scenario scenario = load_order(file, order);
       if (name.empty()) {
         order.group = scenario.name;
         for (const std::string& text : overrides) order.group += " " + text;
@@ -103,12 +100,11 @@ class Gatherer {
         order.id = fmt::format("{}/seed{}", folder, seed);
         order.seed = seed;
         order.scenario_yaml = resolved_yaml(scenario, seed);
-        add(order);
+        add_order(order, ids_, batch_);
       }
     } catch (const InputError& error) {
       if (name.empty()) order.group = name_text(file.stem().string());
-      order.id = claim(order) + kRefused;
-      refuse(order, error);
+      add_refused(order, error);
     }
     return order.group;
   }
@@ -154,8 +150,7 @@ class Gatherer {
       }
     } catch (const InputError& error) {
       Order order{.group = name_text(file.stem().string()), .scenario = file};
-      order.id = claim(order) + kRefused;
-      refuse(order, error);
+      add_refused(order, error);
     }
   }
 
@@ -192,11 +187,6 @@ class Gatherer {
     return folder;
   }
 
-  /// A flight listed twice is flown once.
-  void add(const Order& order) {
-    if (ids_.insert({order.id, 0}).second) batch_.orders.push_back(order);
-  }
-
   /// Returns the files that the orders read, canonical.
   std::set<fs::path> used_files() const {
     std::set<fs::path> used;
@@ -209,15 +199,10 @@ class Gatherer {
     return used;
   }
 
-  void refuse(Order& order, const InputError& error) {
-    const std::vector<std::string> faults = at_overrides(error.errors(), order.overrides, positions_);
-    order.fault = faults.front();
-    order.more_faults.assign(faults.begin() + 1, faults.end());
-    for (const std::string& fault : faults) {
-      // An override that no scenario accepts is one fault, not one per scenario.
-      if (std::ranges::find(batch_.faults, fault) == batch_.faults.end()) batch_.faults.push_back(fault);
-    }
-    add(order);
+  void add_refused(Order& order, const InputError& error) {
+    order.id = claim(order) + kRefused;
+    refuse(order, at_overrides(error.errors(), order.overrides, positions_));
+    add_order(order, ids_, batch_);
   }
 
   const std::vector<uint64_t>& seeds_;
@@ -225,7 +210,8 @@ class Gatherer {
   BatchOrders batch_;
   OverridePositions positions_;                                         ///< of the last campaign
   std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
-  std::map<std::string, int> taken_, ids_;
+  std::map<std::string, int> taken_;
+  std::set<std::string> ids_;
 };
 
 }  // namespace
@@ -252,7 +238,34 @@ Leaderboard leaderboard_of(const LeaderboardConfig& config) {
   return board;
 }
 
-bool is_refused(const Order& order) { return order.id.ends_with(kRefused); }
+Scenario load_order(const fs::path& file, Order& order) {
+  LoadedScenario loaded = load_flight(file, order.overrides);
+  order.inputs = std::move(loaded.inputs);
+  order.scenario_sha256 = scenario_sha256(loaded.scenario, file.parent_path());
+  return std::move(loaded.scenario);
+}
+
+void refuse(Order& order, const std::vector<std::string>& faults) {
+  order.fault = faults.front();
+  order.more_faults.assign(faults.begin() + 1, faults.end());
+}
+
+void add_order(Order order, std::set<std::string>& ids, BatchOrders& batch) {
+  std::vector<std::string> faults = order.more_faults;
+  if (!order.fault.empty()) faults.insert(faults.begin(), order.fault);
+  for (const std::string& fault : faults) {
+    // An override that no scenario accepts is one fault, not one per scenario.
+    if (std::ranges::find(batch.faults, fault) == batch.faults.end()) batch.faults.push_back(fault);
+  }
+  if (ids.insert(order.id).second) batch.orders.push_back(std::move(order));
+}
+
+bool is_refused(const Order& order) { return !order.fault.empty() || order.id.ends_with(kRefused); }
+
+std::vector<FlightRecord> without_refused(std::vector<FlightRecord> records) {
+  std::erase_if(records, [](const FlightRecord& record) { return is_refused(record.order); });
+  return records;
+}
 
 BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
                        const std::vector<std::string>& overrides, bool recursive) {

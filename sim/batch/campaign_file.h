@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -183,7 +184,21 @@ BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const s
 BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,
                       const std::vector<std::string>& overrides);
 
-/// Returns whether an order stands for an invalid file, whose seeds are unknown.
+/// Loads the scenario of an order with its overrides, and stores the hash and the input files in the order. Throws
+/// InputError. @param file  of the scenario, named as in messages.
+Scenario load_order(const std::filesystem::path& file, Order& order);
+
+/// Marks an order that cannot be flown. @param faults  one line each, at least one.
+void refuse(Order& order, const std::vector<std::string>& faults);
+
+/// Adds an order and its faults to a batch. A flight listed twice is flown once, and an equal fault is listed once.
+/// @param ids  of the batch's orders.
+void add_order(Order order, std::set<std::string>& ids, BatchOrders& batch);
+
+/// Returns whether an order cannot be flown, because its file is invalid. A table of flights has only its id.
 bool is_refused(const Order& order);
+
+/// Returns the records that count for rates and planned numbers: those of orders that are not refused.
+std::vector<FlightRecord> without_refused(std::vector<FlightRecord> records);
 
 }  // namespace hedgehop::sim

@@ -9,7 +9,6 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
-#include "sim/scenario/flight_parts.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -66,25 +65,11 @@ Order recalled_order(const OrderedJson& flight) {
     return order;
   }
   try {
-    const LoadedScenario loaded = load_flight(order.scenario, order.overrides);
-    order.inputs = loaded.inputs;
-    order.scenario_sha256 = scenario_sha256(loaded.scenario, order.scenario.parent_path());
-    order.scenario_yaml = resolved_yaml(loaded.scenario, order.seed);
+    order.scenario_yaml = resolved_yaml(load_order(order.scenario, order), order.seed);
   } catch (const InputError& error) {
-    order.fault = error.errors().front();
-    order.more_faults.assign(error.errors().begin() + 1, error.errors().end());
+    refuse(order, error.errors());
   }
   return order;
-}
-
-void add_recalled(Order order, std::set<std::string>& ids, BatchOrders& batch) {
-  if (!ids.insert(order.id).second) return;
-  std::vector<std::string> faults = order.more_faults;
-  if (!order.fault.empty()) faults.insert(faults.begin(), order.fault);
-  for (const std::string& fault : faults) {
-    if (std::ranges::find(batch.faults, fault) == batch.faults.end()) batch.faults.push_back(fault);
-  }
-  batch.orders.push_back(std::move(order));
 }
 
 }  // namespace
@@ -95,9 +80,9 @@ BatchOrders reread_batch(const std::filesystem::path& batch_json) {
   std::set<std::string> ids;
   try {
     recall_conduct(json.value("conduct", OrderedJson::object()), batch);
-    for (const OrderedJson& flight : json.at("flights")) add_recalled(recalled_order(flight), ids, batch);
+    for (const OrderedJson& flight : json.at("flights")) add_order(recalled_order(flight), ids, batch);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no record of a batch: {}", batch_json.string(), error.what()));
+    throw InputError(json_fault(batch_json, error, kRecordOfBatch));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", batch_json.string(), error.errors().front()));
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/batch/folders.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
 #include "sim/config/utf8.h"
@@ -154,7 +155,7 @@ constexpr const char* kTables[] = {"falsify.csv", "sweep.csv", "batch.csv"};
 
 std::filesystem::path table_of(const std::filesystem::path& folder) {
   for (const char* name : kTables) {
-    if (std::filesystem::exists(folder / name)) return folder / name;
+    if (has_file(folder, name)) return folder / name;
   }
   throw InputError(fmt::format("{}: no folder of a batch (batch.csv), a sweep (sweep.csv) or a search (falsify.csv)",
                                folder.string()));
@@ -276,7 +277,7 @@ std::string column_fault(const std::string& column, const Scenario& scenario) {
 }
 
 bool is_campaign(const std::filesystem::path& folder) {
-  return std::ranges::any_of(kTables, [&](const char* name) { return std::filesystem::exists(folder / name); });
+  return std::ranges::any_of(kTables, [&](const char* name) { return has_file(folder, name); });
 }
 
 FlightList read_flights(const std::filesystem::path& folder) {

@@ -20,12 +20,13 @@ Count earlier_count(const std::string& batch_json, const std::string& group) {
     Count count;
     for (const auto& flight : batch.at("flights")) {
       if (flight.at("group") != group || flight.at("status") == "missing" || flight.at("passed").is_null()) continue;
+      if (is_refused({.id = flight.value("id", "")})) continue;
       ++count.trials;
       count.successes += flight.at("passed").get<bool>() ? 1 : 0;
     }
     return count;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no record of a batch: {}", batch_json, error.what()));
+    throw InputError(json_fault(batch_json, error, kRecordOfBatch));
   }
 }
 
@@ -80,7 +81,7 @@ void count(const FlightRecord& record, GroupSummary& group) {
   const Verdict verdict = verdict_of(record);
   group.failed += verdict == Verdict::not_flown ? 1 : 0;
   group.unchecked += verdict == Verdict::unchecked ? 1 : 0;
-  group.success.trials += verdict == Verdict::unchecked ? 0 : 1;
+  group.success.trials += verdict == Verdict::unchecked || is_refused(record.order) ? 0 : 1;
   group.success.successes += verdict == Verdict::passed ? 1 : 0;
   if (!record.result) return;
   const Outcome outcome = record.result->flight.outcome;

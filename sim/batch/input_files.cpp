@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "sim/config/config_tree.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -50,7 +51,11 @@ void add_subfolder(const fs::directory_entry& entry, bool recursive, FolderFiles
   if (recursive && !is_link) {
     add_files(entry.path(), true, files);
   } else if (const size_t count = count_yaml(entry.path()); count > 0) {
-    is_link ? void(files.links.push_back(entry.path())) : void(files.not_descended.emplace_back(entry.path(), count));
+    if (is_link) {
+      files.links.push_back(entry.path());
+    } else {
+      files.not_descended.emplace_back(entry.path(), count);
+    }
   }
 }
 
@@ -143,8 +148,8 @@ std::string left_out_words(const FolderFiles& files, const std::set<fs::path>& u
                                 unnamed > 0 ? fmt::format(" and {} more files", unnamed) : ""));
   }
   for (const auto& [folder, count] : files.not_descended) {
-    words.push_back(fmt::format("{}/ ({} YAML file{}; use --recursive)",
-                                folder.lexically_relative(files.folder).string(), count, count == 1 ? "" : "s"));
+    words.push_back(fmt::format("{}/ ({}; use --recursive)", folder.lexically_relative(files.folder).string(),
+                                counted(count, "YAML file")));
   }
   for (const fs::path& link : files.links) {
     words.push_back(

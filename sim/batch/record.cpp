@@ -34,7 +34,7 @@ std::vector<std::string> run_arguments(const Order& order) {
 
 nlohmann::ordered_json read_batch_json(const std::filesystem::path& file) {
   try {
-    nlohmann::ordered_json batch = nlohmann::ordered_json::parse(read_file_whole(file));
+    nlohmann::ordered_json batch = read_json(file);
     for (const auto& group : batch.at("groups")) {
       if (!group.contains("least_clearance_m")) continue;
       throw InputError(
@@ -43,7 +43,7 @@ nlohmann::ordered_json read_batch_json(const std::filesystem::path& file) {
     }
     return batch;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no record of a batch: {}", file.string(), error.what()));
+    throw InputError(json_fault(file, error, kRecordOfBatch));
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -76,6 +76,10 @@ Verdict verdict_of(const FlightRecord& record) {
 std::string outcome_words(const FlightRecord& record) {
   const bool flown = record.status == FlightRecord::Status::flown;
   return std::string(flown ? to_string(record.result->flight.outcome) : to_string(record.status));
+}
+
+std::string shown_outcome(Outcome outcome, bool has_goal) {
+  return outcome == Outcome::timeout && !has_goal ? "completed" : std::string(to_string(outcome));
 }
 
 std::string build_of(const FlightRecord& record) { return record.result ? record.result->info.build : ""; }

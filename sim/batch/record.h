@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/flight/result_io.h"
@@ -41,6 +42,7 @@ std::string rerun_command(const Order& order);
 /// Parses the batch.json of an earlier batch. Throws InputError if the file cannot be read, is not JSON, or has a key
 /// of an earlier version.
 nlohmann::ordered_json read_batch_json(const std::filesystem::path& file);
+inline constexpr std::string_view kRecordOfBatch = "the record of a batch";  ///< kind of batch.json, in messages
 
 /// The end of an order.
 struct FlightRecord {
@@ -62,6 +64,10 @@ inline constexpr std::string_view kNoChecks = "no checks";
 
 /// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
 std::string outcome_words(const FlightRecord& record);
+
+/// Returns the outcome as pages and the terminal show it: a timeout without a goal, the normal end of such a flight, is
+/// "completed".
+std::string shown_outcome(Outcome outcome, bool has_goal);
 
 /// The identity of the build that flew it, as its result names it; "" when it has none.
 std::string build_of(const FlightRecord& record);

@@ -20,6 +20,8 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/flight/words.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -27,12 +29,6 @@ constexpr size_t kMaxTailBytes = 4096;
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-std::string last_line(std::string_view text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
-  const size_t begin = text.find_last_of("\r\n");
-  return std::string(begin == std::string_view::npos ? text : text.substr(begin + 1));
 }
 
 /// Returns the environment of this process, with large pages for the heap: a short flight then has a third of the page

@@ -78,15 +78,17 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
 
 std::optional<StoppingRule> rule_of(const BatchOptions& options, const PlannedBatch& planned_batch) {
   const auto& [batch, plan] = planned_batch;
-  const bool asked = !options.until.empty() || options.until_width;
-  const bool planned = plan && plan->config.rule;
-  if (!asked && !planned) return {};
-  require_planned_number(batch);
-  if (!asked) {
-    return StoppingRule{parse_rate_claim(plan->config.rule->until), plan->config.rule->confidence};
+  if (!options.until.empty()) {
+    require_planned_number(batch, "--until");
+    return StoppingRule{parse_rate_claim(options.until), options.confidence};
   }
-  if (!options.until.empty()) return StoppingRule{parse_rate_claim(options.until), options.confidence};
-  return StoppingRule{width_claim(*options.until_width, options.of), options.confidence};
+  if (options.until_width) {
+    require_planned_number(batch, "--until-width");
+    return StoppingRule{width_claim(*options.until_width, options.of), options.confidence};
+  }
+  if (!plan || !plan->config.rule) return {};
+  require_planned_number(batch, *plan);
+  return StoppingRule{parse_rate_claim(plan->config.rule->until), plan->config.rule->confidence};
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 #include "sim/batch/flight_table.h"
 #include "sim/batch/fly_orders.h"
+#include "sim/batch/folders.h"
+#include "sim/batch/input_files.h"
 #include "sim/batch/usable_cores.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
@@ -85,18 +88,16 @@ std::string name_of(const BranchOptions& options) {
 std::vector<Order> write_scenarios(const Scenario& base, const Scenario& branch, const std::string& name,
                                    const fs::path& out) {
   const fs::path folder = out / "scenarios", unbroken = folder / (std::string(kUnbroken) + ".yaml");
-  if (fs::exists(unbroken) && read_file_whole(unbroken) != to_yaml(base)) {
+  if (has_file(folder, unbroken.filename().string()) && read_file_whole(unbroken) != to_yaml(base)) {
     throw InputError(fmt::format("{}: holds branches of another flight; choose another --out", out.string()));
   }
-  fs::create_directories(folder);
+  create_folders(folder);
   write_file_whole(unbroken, to_yaml(base));
   write_file_whole(folder / (name + ".yaml"), to_yaml(branch));
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path() != unbroken && entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  files.insert(files.begin(), unbroken);
+  const FolderFiles found = files_of(folder, /*recursive=*/false);
+  if (!found.faults.empty()) throw InputError(found.faults);
+  std::vector<fs::path> files = {unbroken};
+  std::ranges::copy_if(found.yaml, std::back_inserter(files), [&](const fs::path& file) { return file != unbroken; });
   std::vector<Order> orders;
   for (const fs::path& file : files) {
     Order& order = orders.emplace_back(file_order(file, "flights/" + file.stem().string()));

@@ -1,13 +1,17 @@
 #include "sim/cli/campaign_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <memory>
 #include <string_view>
+#include <system_error>
 
 #include "sim/batch/fly_orders.h"
 #include "sim/batch/usable_cores.h"
 #include "sim/cli/commands.h"
+#include "sim/config/input_error.h"
 #include "sim/scenario/drawing.h"
 
 namespace hedgehop::sim::cli {
@@ -83,6 +87,12 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
       command
           ->add_option("--no-worse-than", options->no_worse_than,
                        "require a success rate over the seeds that is no worse than in this earlier batch")
+          ->check([](const std::string& path) {
+            std::error_code error;
+            return std::filesystem::exists(path, error)
+                       ? ""
+                       : path + ": there is no such folder; valid: the --out of an earlier batch";
+          })
           ->type_name("DIR");
   command
       ->add_option("--margin", options->margin,
@@ -159,6 +169,19 @@ void declare_compare(CLI::App& app, std::function<int()>& chosen) {
   command->callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }
 
+/// Refuses options of a sweep that would have no effect with the others.
+void require_effect(const CLI::App& sweep, const SweepOptions& options) {
+  for (const char* option : {"--tasks", "--slurm-option"}) {
+    if (options.on != "slurm" && sweep.get_option(option)->count() > 0)
+      throw InputError(fmt::format("{} is for --on slurm", option));
+  }
+  const bool gathers = options.merge || options.missing;
+  if (!options.merge_from.empty() && !gathers) throw InputError("--from is for --merge or --missing");
+  if (options.missing && !options.junit.empty()) throw InputError("--missing writes no files: no --junit");
+  if (options.dry_run && gathers && options.on != "slurm")
+    throw InputError("--dry-run prints the flights to be flown: no --merge or --missing");
+}
+
 void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("sweep", "vary parameters of a scenario; resumes after an interruption");
   const auto options = std::make_shared<SweepOptions>();
@@ -171,21 +194,20 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("--shard", options->shard, "fly one part of the sweep, such as 2/8")->type_name("I/N");
   auto* const merge =
       command->add_flag("--merge", options->merge, "write the tables of all existing results, without flying");
-  command->add_option("--from", options->merge_from, "with --merge: additional folder with results; may be repeated")
-      ->needs(merge)
+  command
+      ->add_option("--from", options->merge_from,
+                   "with --merge or --missing: additional folder with results; may be repeated")
+      ->check(existing_folder())
       ->type_name("DIR");
   command->add_flag("--missing", options->missing, "print the number of flights without a result, and exit")
       ->excludes(merge);
-  auto* const on =
-      command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
+  command->add_option("--on", options->on, "local (default) or slurm")->check(CLI::IsMember({"local", "slurm"}));
   command->add_option("--tasks", options->tasks, "number of shards of a Slurm job array; default 8")
-      ->needs(on)
       ->transform(whole_number())
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--slurm-option", options->slurm_options,
                    "option of every sbatch call, such as --partition=night; may be repeated")
-      ->needs(on)
       ->check([](const std::string& option) {
         const bool one_line = std::ranges::none_of(option, [](unsigned char c) { return std::iscntrl(c) != 0; });
         return option.starts_with('-') && one_line ? "" : "expected one line that begins with '-'";
@@ -194,6 +216,7 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
                     "print the number of flights, with --on slurm the batch scripts, without flying or submitting");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options, command] {
+    require_effect(*command, *options);
     if (command->get_option("--jobs")->count() > 0) options->task_cores = options->jobs;
     chosen = [options] { return sweep(*options); };
   });
@@ -254,7 +277,7 @@ void declare_reproduce(CLI::App& app, std::function<int()>& chosen) {
 void declare_bless(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("bless", "store a run's trajectory as the reference of its scenario");
   const auto options = std::make_shared<BlessOptions>();
-  command->add_option("RUN", options->folder, "output folder of the run")->required()->check(CLI::ExistingDirectory);
+  command->add_option("RUN", options->folder, "output folder of the run")->required()->check(existing_folder());
   command->add_option("--reason", options->reason, "reason for this reference, one line")->required();
   command->add_flag("--force", options->force, "also accept a failed flight, and replace an existing reference");
   command->add_flag("--dry-run", options->dry_run, "print the files that would be written, without writing them");

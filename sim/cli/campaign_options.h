@@ -15,6 +15,9 @@ inline void add_overrides(CLI::App& command, std::vector<std::string>& overrides
 /// Declares the commands that fly many scenarios. Parsing stores the call of the selected command in `chosen`.
 void declare_campaigns(CLI::App& app, std::function<int()>& chosen);
 
+/// Accepts the path of a folder.
+CLI::Validator existing_folder();
+
 // Numbers of options, read like those of a scenario: decimal, finite, without integer wrap-around. Attach these
 // validators with transform() before any range check.
 

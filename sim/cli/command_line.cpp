@@ -39,7 +39,7 @@ void add_layers(CLI::App& command, ScenarioOptions& scenario) {
       .add_option_function<std::string>("--gl",
                                         [&scenario](const std::string& name) {
                                           scenario.renderer = name;
-                                          notice("--gl is deprecated: use --renderer\n");
+                                          warn("--gl is deprecated: use --renderer");
                                         })
       ->check(CLI::IsMember(names))
       ->excludes(renderer)
@@ -164,6 +164,17 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
   });
 }
 
+/// Returns the message of a bad command line. Those of CLI11 name a missing value "1 required TEXT missing".
+std::string usage_fault(const CLI::Error& error) {
+  constexpr std::string_view kBefore = ": 1 required ", kAfter = " missing";
+  std::string text = one_line(error.what());
+  const size_t at = text.find(kBefore);
+  if (at == std::string::npos || !text.ends_with(kAfter)) return text;
+  const size_t begin = at + kBefore.size();
+  const std::string type = text.substr(begin, text.size() - begin - kAfter.size());
+  return text.substr(0, at) + ": a value is missing" + (type == "TEXT" ? "" : " (" + type + ")");
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{
       "Hedgehop: closed-loop simulation of vision-based obstacle avoidance for helicopters and multicopters,\n"
@@ -175,9 +186,8 @@ int parse_and_run(int argc, char** argv) {
     return fmt::format("{} (build {}){}", version(), build_identity(), features ? kFeatureRows : "");
   });
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("{} (see --help)\n", one_line(error.what()));
-  });
+  app.failure_message(
+      [](const CLI::App*, const CLI::Error& error) { return fmt::format("{} (see --help)\n", usage_fault(error)); });
   app.footer(
       "Exit status: 0 all checks hold; 1 a check fails or a claim is refuted; 2 bad input; 3 internal error; 4 "
       "undecided; "
@@ -226,7 +236,7 @@ int parse_and_run(int argc, char** argv) {
 
 int run_command_line(int argc, char** argv) {
   if (std::getenv("HEDGEHOP_GL") != nullptr) {
-    notice("HEDGEHOP_GL has no effect any more: use --renderer, or drawing.renderer in the scenario\n");
+    warn("HEDGEHOP_GL has no effect any more: use --renderer, or drawing.renderer in the scenario");
     ::unsetenv("HEDGEHOP_GL");  // the workers of a campaign need not repeat it
   }
   try {

@@ -36,7 +36,7 @@ struct RunOptions {
   bool view = false;                        ///< show the flight in a browser while it is flown
   std::optional<double> pace;               ///< seconds of flight per second of wall time; none: as fast as possible
   std::vector<std::string> keep_if_failed;  ///< of a worker: "report", "film", "replay"; written if the flight fails
-  std::string bind = "127.0.0.1";           ///< address on which a link is served
+  std::optional<std::string> bind;          ///< address on which a link is served; none: 127.0.0.1
   std::filesystem::path replay_link;        ///< recording that replaces the autopilot of a link; empty for a live link
   int64_t link_worker = 0;                  ///< number of the worker's autopilot
   int64_t worker_of = 0;  ///< parent process, whose end ends this run; no progress is shown; 0 for a run by a user

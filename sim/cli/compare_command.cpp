@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
@@ -10,10 +14,13 @@ BatchOrders orders_of(const CompareOptions& options) {
   const std::vector<uint64_t> seeds = parse_seeds(options.seeds);
   BatchOrders batch = read_batch({options.base, options.candidate}, seeds, options.overrides);
   if (!batch.faults.empty()) throw InputError(batch.faults);
-  if (batch.orders.size() != 2 * seeds.size()) {
-    throw InputError("compare: BASE and CANDIDATE are to be two scenarios, neither campaigns nor folders");
+  for (const std::filesystem::path& file : {options.base, options.candidate}) {
+    if (std::ranges::find(batch.orders, file.lexically_normal(), &Order::scenario) == batch.orders.end())
+      throw InputError(fmt::format("compare: {} is a campaign or a folder; valid: a scenario", file.string()));
   }
-  return batch;
+  if (batch.orders.size() == 2 * seeds.size()) return batch;
+  throw InputError(
+      fmt::format("compare: BASE and CANDIDATE are the same file '{}'; name two scenarios", options.base.string()));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
+#include "sim/fields/quantities.h"
 #include "sim/flightlog/log_comparison.h"
 #include "sim/flightlog/recorded_flight.h"
 #include "sim/pages/log_figure.h"
@@ -32,7 +32,6 @@ struct ReadableRow {
 };
 
 std::vector<ReadableRow> readable_rows(const HorizonErrors& row, bool has_position) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const std::array<Eigen::Vector4d, 4> groups = {group_norms(row.model), group_norms(row.held),
                                                  group_norms(row.constant_velocity), group_norms(row.linear)};
   std::vector<ReadableRow> all;

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "sim/batch/seeds.h"
 #include "sim/batch/worker_pool.h"
@@ -15,6 +17,7 @@
 #include "sim/config/input_error.h"
 #include "sim/dataset/dataset.h"
 #include "sim/fields/bounds.h"
+#include "sim/scenario/drawing.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -58,6 +61,7 @@ int write_worlds(const DatasetRequest& request, const DatasetOptions& options) {
   const size_t worlds = world_count(request);
   size_t next = 0, written = 0;
   int status = 0;
+  std::set<std::string> faults;
   for (;;) {
     while (next < worlds && pool.has_room()) {
       const size_t world = next++;
@@ -78,7 +82,12 @@ int write_worlds(const DatasetRequest& request, const DatasetOptions& options) {
     }
     const bool bad_input = ended->end.kind == WorkerEnd::Kind::exited && ended->end.code == kBadInput;
     if (status == 0) status = bad_input ? kBadInput : kInternalError;
-    line.keep(fmt::format("{}: {}", world_name(request, ended->job), cause_words(ended->end, 0.0)));
+    const std::string& fault = ended->end.last_line;
+    if (!bad_input || fault.empty()) {
+      line.keep(fmt::format("{}: {}", world_name(request, ended->job), cause_words(ended->end, 0.0)));
+    } else if (faults.insert(fault).second) {  // worlds of one scenario have the same fault
+      line.keep(fault);
+    }
   }
   line.close();
   return interruption.came() ? kSignalled + interruption.signal() : status;
@@ -92,8 +101,8 @@ void declare_dataset(CLI::App& app, std::function<int()>& chosen, DatasetOptions
   command->add_option("SCENARIO", data.scenarios, "scenario files (YAML)")->required();
   command->add_option("--set", data.overrides, "override a key, such as drawing.visibility=100; may be repeated")
       ->type_name("KEY=VALUE");
-  command->add_option("--renderer", data.renderer, "osmesa, egl or tiles; default that of the scenario")
-      ->type_name("NAME");
+  command->add_option("--renderer", data.renderer, "renderer of the images; default that of the scenario")
+      ->check(CLI::IsMember(std::vector<std::string>(kRendererNames.begin(), kRendererNames.end())));
   command->add_option("--seeds", data.seeds, "seeds of the worlds of each scenario, such as 1:10; default 1");
   command->add_option("--poses", data.poses,
                       "random (the default), or a file: trajectory.csv of a run, CSV, EuRoC, TUM or KITTI");

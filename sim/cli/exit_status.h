@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-/// Exit statuses and notices of commands.
+/// Exit statuses, notices and warnings of commands.
 namespace hedgehop::sim::cli {
 
 /// Exit statuses; 0 means success.
@@ -15,5 +15,8 @@ inline constexpr int kSignalled = 128;    ///< plus the number of the signal tha
 
 /// Prints to standard error. Unlike fmt::print, it does not throw if standard error is full or closed.
 inline void notice(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+/// Prints a warning, one line, to standard error. @param text  without the prefix and the line break.
+inline void warn(const std::string& text) { notice("warning: " + text + "\n"); }
 
 }  // namespace hedgehop::sim::cli

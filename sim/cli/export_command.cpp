@@ -11,6 +11,7 @@
 #include "sim/flight/build.h"
 #include "sim/record/run_record.h"
 #include "sim/scenario/flight_parts.h"
+#include "sim/scenario/inputs.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -46,13 +47,22 @@ RunResult result_of_run(const std::filesystem::path& folder) {
   }
 }
 
-/// Returns why a flight may differ from the run. @param inputs  of the flight of the run's resolved scenario.
+/// Whether a file of this name has this hash, in any folder.
+bool has(const Inputs& inputs, const std::filesystem::path& name, const std::string& hash) {
+  return std::ranges::any_of(inputs, [&](const auto& input) {
+    return std::filesystem::path(input.first).filename() == name && input.second == hash;
+  });
+}
+
+/// Returns why a flight may differ from the run. @param inputs  of the flight of the run's resolved scenario. Files are
+/// compared by their names without folders, because the two scenarios lie in different folders.
 std::string cause_of_difference(const RunInfo& run, const Inputs& inputs) {
   for (const auto& [file, hash] : inputs) {
     const std::filesystem::path name = std::filesystem::path(file).filename();
     if (name == "scenario.yaml") continue;  // the resolved scenario, which is no input of the run
+    if (has(run.inputs, name, hash)) continue;
     for (const auto& [run_file, run_hash] : run.inputs) {
-      if (std::filesystem::path(run_file).filename() == name && run_hash != hash)
+      if (std::filesystem::path(run_file).filename() == name && !has(inputs, name, run_hash))
         return run_file + " has changed since";
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/batch/folders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
@@ -11,6 +12,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/falsify/counterexample.h"
+#include "sim/flight/json_file.h"
 #include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/report_page.h"
@@ -56,18 +58,19 @@ std::string_view words(Repeat repeat) {
 /// A folder holds one search: flights of another would be taken for this one's.
 void require_same_search(const FalsifySearch& search, const std::filesystem::path& out) {
   const std::filesystem::path file = out / "falsify.json";
-  if (!std::filesystem::exists(file)) return;
-  const auto left = nlohmann::json::parse(read_file_whole(file), nullptr, /*allow_exceptions=*/false);
-  if (left.is_object() && left.value("search", "") == search.identity) return;
+  if (!has_file(out, file.filename().string())) return;
+  nlohmann::ordered_json left;
+  try {
+    left = read_json(file);
+  } catch (const InputError& damage) {
+    throw InputError(fmt::format("{}; choose another --out, or remove the file", damage.errors().front()));
+  }
+  const bool is_search = left.is_object() && left.contains("search") && left["search"].is_string();
+  if (is_search && left["search"] == search.identity) return;
   throw InputError(
-      fmt::format("{}: holds a search of another file, or of this one before it was changed; choose "
+      fmt::format("{}: holds a search of another file, or of this one before it or a --set was changed; choose "
                   "another --out",
                   out.string()));
-}
-
-/// Returns "1 flight", "2 flights".
-std::string count_words(size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 class FalsifyRun {
@@ -156,13 +159,13 @@ class FalsifyRun {
     const size_t not_flown = print_not_flown(result.records);
     if (failures == 0) {
       fmt::print("no failure in {}: none was found, which is no proof of safety\n",
-                 count_words(result.records.size() - not_flown, "flight"));
+                 counted(result.records.size() - not_flown, "flight"));
     } else {
-      fmt::print("{}, {} of {}, the first after {}; {}\n", count_words(result.records.size(), "flight"),
+      fmt::print("{}, {} of {}, the first after {}; {}\n", counted(result.records.size(), "flight"),
                  std::ranges::count_if(result.trials, &FalsifyTrial::fails),
-                 count_words(result.trials.size(), "point") + (result.trials.size() == 1 ? " fails" : " fail"),
-                 count_words(result.trials[result.failures[0]].record + 1, "flight"),
-                 count_words(failures, "distinct failure"));
+                 counted(result.trials.size(), "point") + (result.trials.size() == 1 ? " fails" : " fail"),
+                 counted(result.trials[result.failures[0]].record + 1, "flight"),
+                 counted(failures, "distinct failure"));
     }
     return not_flown;
   }

@@ -136,7 +136,7 @@ std::vector<FlightRecord> fly(const BatchRun& run, std::optional<SequentialCount
     show(progress, *ended);
     if (!count || !count->ended(ended->record)) continue;
     for (const Order& order : orders) {
-      if (!count->wanted(order)) flights.drop(order);
+      if (count->discarded(order)) flights.drop(order);
     }
   }
   progress.close();
@@ -214,7 +214,9 @@ int fly_batch(BatchRun run) {
   Interruption interruption;
   BatchOutcome outcome = conclude(fly(run, count, interruption), count, run.fly.limit_s);
   outcome.conduct = run.conduct;
-  if (interruption.signal() == 0) outcome.verdicts = judge(run.batch.checks, summarize(outcome.records));
+  if (interruption.signal() == 0) {
+    outcome.verdicts = judge(run.batch.checks, summarize(without_refused(outcome.records)));
+  }
   EveryWrite files = write_files(run, outcome, counted_column(outcome, count), origin);
   std::string matrix;
   if (files.well()) files.attempt([&] { matrix = write_matrix(run.fly.out, run.batch.leaderboard, run.again); });

@@ -15,6 +15,8 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/config/utf8.h"
+#include "sim/fields/quantities.h"
+#include "sim/flight/words.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -23,8 +25,6 @@ using Json = nlohmann::ordered_json;
 using dynamics::Mode;
 using dynamics::NamedLinearSystem;
 using Texts = std::vector<std::string>;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 Json matrix_json(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   Json rows = Json::array();
@@ -158,7 +158,7 @@ int linearize(const LinearizeOptions& options) {
   if (!linear)
     throw InputError(fmt::format("{}: no steady flight at {} m/s", options.vehicle.string(), options.speed_mps));
   if (!beyond.empty()) {
-    notice(fmt::format("beyond the limits, not flyable, at {} m/s: {}\n", options.speed_mps, fmt::join(beyond, "; ")));
+    warn(fmt::format("beyond the limits, not flyable, at {} m/s: {}", options.speed_mps, fmt::join(beyond, "; ")));
   }
   const std::vector<Mode> modes = dynamics::modes(*linear, options.speed_mps);
   const dynamics::control::LinearSystem& system = linear->system;

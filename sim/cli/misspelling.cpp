@@ -20,7 +20,10 @@ std::string unknown_command(const CLI::App& app, std::string_view word) {
 
 std::string unknown_option(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands()) {
+  std::vector<const CLI::App*> parsed;
+  for (const CLI::App* command : app.get_subcommands()) parsed.push_back(command);
+  if (parsed.empty()) parsed = {&app};
+  for (const CLI::App* command : parsed) {
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_group().empty()) continue;  // hidden
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);

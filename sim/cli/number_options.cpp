@@ -1,8 +1,10 @@
 #include "sim/cli/campaign_options.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "sim/config/numbers.h"
 
@@ -21,6 +23,16 @@ CLI::Validator sign(const char* name, const char* must, Holds holds) {
 }
 
 }  // namespace
+
+CLI::Validator existing_folder() {
+  const auto check = [](const std::string& path) -> std::string {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return "";
+    if (error && error != std::errc::no_such_file_or_directory) return path + ": " + error.message();
+    return path + (std::filesystem::exists(path, error) ? ": is a file; valid: a folder" : ": there is no such folder");
+  };
+  return CLI::Validator(check, "DIR");
+}
 
 CLI::Validator whole_number() {
   const auto read = [](std::string& text) -> std::string {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "sim/batch/folders.h"
 #include "sim/cli/exit_status.h"
 #include "sim/config/whole_file.h"
 
@@ -22,14 +25,14 @@ inline CLI::Validator written_as(const std::string& extension) {
 /// Writes a file that the user names, and before it the folder if that is missing. Throws as require_writable_file().
 inline void write_named_file(const std::filesystem::path& file, std::string_view text) {
   require_writable_file(file);
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  create_folders(file.parent_path());
   write_file_whole(file, text);
 }
 
 /// Writes the page of a plot and prints its name to standard error.
 inline void write_plot(const std::filesystem::path& file, std::string_view page) {
   write_named_file(file, page);
-  notice(file.string() + "\n");
+  notice(fmt::format("written: {}\n", file.string()));
 }
 
 }  // namespace hedgehop::sim::cli

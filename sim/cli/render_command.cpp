@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "sim/batch/folders.h"
 #include "sim/cli/commands.h"
 #include "sim/config/whole_file.h"
 #include "sim/record/image_file.h"
@@ -74,7 +75,7 @@ int render(const RenderOptions& options) {
   Simulation simulation(std::move(loaded));
   const cv::Mat image = file_image(options.what, image_at(simulation, options, channel_of(options.what)));
   const std::filesystem::path folder = options.out.parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  create_folders(folder);
   tiff ? write_tiff(options.out, image) : write_png(options.out, image);
   fmt::print("written: {}\n", options.out.string());
   if (options.what == "labels" || options.what == "semantic") {

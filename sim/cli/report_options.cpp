@@ -11,9 +11,9 @@ void declare_report(CLI::App& app, std::function<int()>& chosen) {
   const auto report = std::make_shared<ReportOptions>();
   command->add_option("DIR", report->folder, "output folder of the run, batch or sweep")
       ->required()
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   command->add_option("--against", report->against, "compare with another run, or with an earlier batch or sweep")
-      ->check(CLI::ExistingDirectory)
+      ->check(existing_folder())
       ->type_name("DIR");
   command->add_flag("--figures", report->figures,
                     "for a sweep: also write tables (LaTeX, CSV) and figures (SVG, PDF) for a paper to DIR/figures");
@@ -34,7 +34,7 @@ void declare_runs(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command =
       app.add_subcommand("runs", "write index.html: a sortable table of all results in a folder tree");
   const auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("DIR", *folder, "folder with results at any depth")->required()->check(CLI::ExistingDirectory);
+  command->add_option("DIR", *folder, "folder with results at any depth")->required()->check(existing_folder());
   command->callback([&chosen, folder] { chosen = [folder] { return cli::runs(*folder); }; });
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/batch/fly_orders.h"
+#include "sim/batch/folders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
@@ -104,7 +105,7 @@ std::set<std::string> renderers_of(const std::vector<FlightRecord>& records) {
 
 /// Writes the page of --write, and prints a line for each section of the earlier page that it lacks.
 void write_results_page(const fs::path& file, const RowsOfPapers& papers, const PageFacts& facts) {
-  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  create_folders(file.parent_path());
   const std::string earlier = fs::exists(file) ? read_file_whole(file) : "";
   const std::string page = results_page(papers, facts, earlier);
   write_file_whole(file, page);
@@ -158,7 +159,8 @@ int reproduce(const ReproduceOptions& options) {
   const std::vector<FlightRecord> records = fly(papers, options, out, interruption);
   if (interruption.signal() != 0) {
     const auto flown = std::ranges::count(records, Status::flown, [](const auto& record) { return record.status; });
-    notice(fmt::format("interrupted: {} of {} flights are there; the same command goes on\n", flown, records.size()));
+    notice(fmt::format("interrupted: {} of {} flights are there; continue with the same command\n", flown,
+                       records.size()));
     return kSignalled + interruption.signal();
   }
 

@@ -63,7 +63,7 @@ class RunWatcher : public FlightWatcher {
   void close() {
     progress_.close();
     film_.close();
-    if (!film_.fault().empty()) notice(fmt::format("warning: incomplete video: {}\n", film_.fault()));
+    if (!film_.fault().empty()) warn(fmt::format("incomplete video: {}", film_.fault()));
   }
   /// The status of the module at its last image, and the image; only with a view.
   const std::string& status() const { return status_; }
@@ -118,9 +118,8 @@ bool keeps(const RunOptions& options, const char* artifact, bool failed) {
 
 void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
                    bool has_report) {
-  const bool completed = result.outcome == Outcome::timeout && !scenario.goal;
   fmt::print("{}, seed {}: {} after {:.1f} s of flight\n", scenario.name, scenario.seed,
-             completed ? "completed" : to_string(result.outcome), result.flight_time_s);
+             shown_outcome(result.outcome, scenario.goal.has_value()), result.flight_time_s);
   if (!result.cause.empty()) fmt::print("  cause: {}\n", result.cause);
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
@@ -147,20 +146,21 @@ void print_verdict(const Scenario& scenario, const FlightResult& result, const s
 /// Returns the autopilot of a scenario with a link; null without a link.
 std::unique_ptr<OutsideAutopilot> open_link(const RunOptions& options, const Scenario& scenario,
                                             const std::filesystem::path& out) {
-  if (scenario.link) return link::open_link(scenario, {options.bind, options.link_worker, out, options.replay_link});
+  if (scenario.link) {
+    return link::open_link(scenario,
+                           {options.bind.value_or("127.0.0.1"), options.link_worker, out, options.replay_link});
+  }
   if (!options.replay_link.empty()) throw InputError("--replay-link: the scenario has no link");
+  if (options.bind) throw InputError("--bind: the scenario has no link");
   std::error_code ignored;
   std::filesystem::remove(out / link::kRecordingName, ignored);  // of an earlier flight
   return nullptr;
 }
 
 void warn_of_link(const LinkFigures& link) {
-  if (link.malformed > 0)
-    notice(fmt::format("warning: link: {} packets of another format were dropped\n", link.malformed));
-  if (link.strangers > 0) {
-    notice(fmt::format("warning: link: {} packets from other addresses than {} were dropped\n", link.strangers,
-                       link.peer));
-  }
+  if (link.malformed > 0) warn(fmt::format("link: {} packets of another format were dropped", link.malformed));
+  if (link.strangers > 0)
+    warn(fmt::format("link: {} packets from other addresses than {} were dropped", link.strangers, link.peer));
 }
 
 /// Writes the pages that the options request. @return whether there is a report.
@@ -227,7 +227,7 @@ int run(const RunOptions& options) {
   const bool has_report = write_pages(options, scenario, info, flight, out);
   if (flight.result.link) warn_of_link(*flight.result.link);
   if (flight.result.goal_missed_unchecked && options.worker_of == 0) {
-    notice(fmt::format("warning: {}: {}\n", scenario.name, kGoalMissedUnchecked));
+    warn(fmt::format("{}: {}", scenario.name, kGoalMissedUnchecked));
   }
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));

@@ -16,6 +16,10 @@ std::vector<std::filesystem::path> shipped_files(const std::string& folder) {
   if (const fs::path installed = installed_configs(); !fs::is_directory(place, error) && !installed.empty()) {
     place = installed / folder;
   }
+  if (!fs::is_directory(place, error)) {
+    throw InputError(fmt::format(
+        "{}: there is no such folder; run this command in the source checkout, or install Hedgehop", place.string()));
+  }
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());

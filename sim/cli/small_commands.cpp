@@ -5,6 +5,7 @@
 
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/flight_table.h"
+#include "sim/batch/folders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/plot_file.h"
@@ -34,23 +35,23 @@ void film_worst(const std::filesystem::path& folder, size_t count) {
   const auto show = [&](const std::string& id) {
     notice(fmt::format("{}/{}: re-simulating {} for its film strip\n", ++begun, rows.size(), id));
   };
-  for (const std::string& fault : write_film_strips(folder, flights, rows, show)) notice(fmt::format("{}\n", fault));
+  for (const std::string& fault : write_film_strips(folder, flights, rows, show)) warn(fault);
 }
 
 }  // namespace
 
 void warn_of_replay(const std::filesystem::path& folder, const std::string& fault) {
   if (fault.empty()) return;
-  notice(fmt::format("warning: {} has no images of cameras: {}\n", (folder / "replay.html").string(), fault));
+  warn(fmt::format("{} has no images of cameras: {}", (folder / "replay.html").string(), fault));
 }
 
 void print_black_pixels(const RigConfig& rig) {
   for (const CameraConfig& camera : rig.cameras) {
     const double share = vision::camera::share_past_turn(camera.model());
     if (share == 0.0) continue;
-    notice(fmt::format(
+    warn(fmt::format(
         "camera '{}': the polynomial of its lens turns over inside the image, so {:.1f} % of the pixels are "
-        "black\n",
+        "black",
         camera.role, 100.0 * share));
   }
 }
@@ -131,13 +132,13 @@ int report(const ReportOptions& options) {
     for (const std::string& file : files) written(file.c_str());
     return 0;
   }
-  if (!std::filesystem::exists(options.folder / "result.json")) {
+  if (!has_file(options.folder, "result.json")) {
     throw InputError(folder + ": no result.json, batch.csv or sweep.csv: not the folder of a run, batch or sweep");
   }
   if (options.figures) throw InputError(folder + ": --figures is for sweeps, and this is one run");
   if (options.film_strips > 0)
     throw InputError(folder + ": --film-strips is for batches or sweeps, and this is one run");
-  if (!options.against.empty() && !std::filesystem::exists(options.against / "result.json")) {
+  if (!options.against.empty() && !has_file(options.against, "result.json")) {
     throw InputError(fmt::format("{}: no result.json: a run is compared with another run", options.against.string()));
   }
   const RunRecord run = read_run(options.folder);

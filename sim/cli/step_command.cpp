@@ -15,6 +15,7 @@
 #include "sim/cli/vehicle_files.h"
 #include "sim/cli/vehicle_inputs.h"
 #include "sim/config/utf8.h"
+#include "sim/flight/words.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/response_data.h"
 

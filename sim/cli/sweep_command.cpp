@@ -96,7 +96,7 @@ EveryWrite write_tables(const SweepRun& run, const FlownSweep& flown, const std:
 
 void write_page(const SweepRun& run, size_t flights) {
   if (flights > kMaxPageFlights) {
-    notice(fmt::format("report.html is not written: {} flights; a page holds up to {}\n", flights, kMaxPageFlights));
+    warn(fmt::format("report.html is not written: {} flights; a page holds up to {}", flights, kMaxPageFlights));
     return;
   }
   write_campaign_page(run.out);
@@ -260,7 +260,7 @@ int plan_and_fly_sweep(const SweepOptions& options) {
   if (!options.junit.empty()) require_writable_file(options.junit);
   if (const auto* design = std::get_if<OptimizeDesign>(&run.sweep.design)) {
     if (options.on != "local" || !options.shard.empty() || options.merge || options.missing) {
-      throw InputError("an optimizer looks at each point before the next: no --on, --shard, --merge or --missing");
+      throw InputError("an optimizer needs each result before the next point: no --on, --shard, --merge or --missing");
     }
     if (options.dry_run) {
       fmt::print(

@@ -14,6 +14,7 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/cli/vehicle_files.h"
 #include "sim/config/utf8.h"
+#include "sim/flight/words.h"
 #include "sim/pages/report_page.h"
 #include "sim/pages/trim_data.h"
 
@@ -115,7 +116,7 @@ void print_trim(const TrimOptions& options, const std::vector<TrimPoint>& rows) 
 std::string fastest_flight(const dynamics::VehicleConfig& vehicle, double missing_mps) {
   double found_mps = 0.0;
   auto fastest = dynamics::steady_flight(vehicle, {0.0, 0.0, 0.0});
-  if (!fastest) return "nor a hover";
+  if (!fastest) return "the vehicle cannot hover either";
   for (double step_mps = 0.5 * missing_mps; std::abs(step_mps) > 0.05; step_mps *= 0.5) {
     auto flight = dynamics::steady_flight(vehicle, {found_mps + step_mps, 0.0, 0.0});
     if (!flight) continue;
@@ -123,8 +124,9 @@ std::string fastest_flight(const dynamics::VehicleConfig& vehicle, double missin
     fastest = std::move(flight);
   }
   const std::vector<std::string> beyond = fastest->beyond();
-  return fmt::format("the fastest is about {:.1f} m/s{}", found_mps,
-                     beyond.empty() ? "" : fmt::format(", beyond {}", fmt::join(beyond, "; ")));
+  if (beyond.empty()) return fmt::format("the fastest is about {:.1f} m/s", found_mps);
+  return fmt::format("a trim exists up to about {:.1f} m/s, but is not flyable there: beyond {}", found_mps,
+                     fmt::join(beyond, "; "));
 }
 
 }  // namespace
@@ -147,10 +149,10 @@ int trim(const TrimOptions& options) {
     }
     return found;
   });
-  for (const double speed_mps : missing_mps) notice(fmt::format("no steady flight at {} m/s\n", speed_mps));
+  for (const double speed_mps : missing_mps) warn(fmt::format("no steady flight at {} m/s", speed_mps));
   for (const TrimPoint& row : rows) {
     if (const auto beyond = row.flight.beyond(); !beyond.empty()) {
-      notice(fmt::format("beyond the limits, not flyable, at {} m/s: {}\n", row.speed_mps, fmt::join(beyond, "; ")));
+      warn(fmt::format("beyond the limits, not flyable, at {} m/s: {}", row.speed_mps, fmt::join(beyond, "; ")));
     }
   }
   print_trim(options, rows);

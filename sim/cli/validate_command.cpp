@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/group_verdict.h"
@@ -15,6 +16,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
+#include "sim/flight/words.h"
 #include "sim/reproduce/paper.h"
 #include "sim/simulation/simulation.h"
 #include "sim/sweep/sweep_file.h"
@@ -28,33 +30,17 @@ struct ValidFile {
   std::set<std::filesystem::path> used;
 };
 
-std::string counted(size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
+enum class FileKind { plan, paper, search, sweep, flights };
 
-bool is_sweep(const std::filesystem::path& file) {
-  ErrorList errors("file");
-  const Node root = load_tree(file, errors);
-  return root.find("parameters") && root.find("scenario");
-}
-
-bool is_search(const std::filesystem::path& file) {
-  ErrorList errors("file");
-  const Node root = load_tree(file, errors);
+/// Returns the kind that the keys of a file show. The reader of the kind reports errors of the file.
+FileKind kind_of(const std::filesystem::path& file) {
+  ErrorList ignored("file");
+  const Node root = load_tree(file, ignored);
   const Node* const design = root.find("design");
-  return design && design->find("budget");
-}
-
-bool is_paper(const std::filesystem::path& file) {
-  ErrorList errors("file");
-  const Node root = load_tree(file, errors);
-  return root.find("rows") && root.find("flights");
-}
-
-bool is_plan(const std::filesystem::path& file) {
-  ErrorList errors("file");
-  const Node root = load_tree(file, errors);
-  return root.find("question") && root.find("flights");
+  if (root.find("question") && root.find("flights")) return FileKind::plan;
+  if (root.find("rows") && root.find("flights")) return FileKind::paper;
+  if (design && design->find("budget")) return FileKind::search;
+  return root.find("parameters") && root.find("scenario") ? FileKind::sweep : FileKind::flights;
 }
 
 /// Returns the content of a plan with a line for each scenario: its SHA-256, and the registered one if it differs.
@@ -89,7 +75,7 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
   const BatchOrders batch = read_batch({file}, {}, overrides);
   if (!batch.faults.empty()) throw InputError(batch.faults);
   require_decidable(batch);
-  if (const auto plan = plan_of(batch); plan && plan->config.rule) require_planned_number(batch);
+  if (const auto plan = plan_of(batch)) require_planned_number(batch, *plan);
   ValidFile valid;
   std::map<std::string, size_t> groups;
   for (const Order& order : batch.orders) {
@@ -107,15 +93,23 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
 }
 
 ValidFile read_valid(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  if (is_plan(file)) return read_plan(file, overrides);
-  if (is_paper(file)) return {fmt::format("paper with {}", counted(read_paper(file).rows.size(), "claim")), {}};
-  if (is_search(file)) {
-    const FalsifySearch search = read_falsify(file, overrides);
-    return {fmt::format("search of {} flights of {}", search.config.design.budget, search.config.scenario), {}};
+  switch (kind_of(file)) {
+    case FileKind::plan:
+      return read_plan(file, overrides);
+    case FileKind::paper:
+      return {fmt::format("paper with {}", counted(read_paper(file).rows.size(), "claim")), {}};
+    case FileKind::search: {
+      const FalsifySearch search = read_falsify(file, overrides);
+      return {fmt::format("search of {} flights of {}", search.config.design.budget, search.config.scenario), {}};
+    }
+    case FileKind::sweep: {
+      const SweepConfig sweep = read_sweep(file, overrides);
+      return {fmt::format("sweep of {} of {}", counted(sweep.parameters.size(), "parameter"), sweep.scenario), {}};
+    }
+    case FileKind::flights:
+      return read_flights_of(file, overrides);
   }
-  if (!is_sweep(file)) return read_flights_of(file, overrides);
-  const SweepConfig sweep = read_sweep(file, overrides);
-  return {fmt::format("sweep of {} of {}", counted(sweep.parameters.size(), "parameter"), sweep.scenario), {}};
+  throw std::logic_error("unknown kind of file");
 }
 
 /// Checks files one after the other.

@@ -61,15 +61,17 @@ std::vector<double> speed_range(const std::string& text) {
     begin = end + 1;
   }
   if (numbers.size() == 1) return numbers;
-  constexpr double kMaxSpeeds = 10000;
-  if (numbers.size() != 3 || numbers[2] <= 0.0 || numbers[1] < numbers[0] ||
-      (numbers[1] - numbers[0]) / numbers[2] > kMaxSpeeds) {
+  if (numbers.size() != 3 || numbers[2] <= 0.0 || numbers[1] < numbers[0]) {
     throw InputError(fmt::format("--speed {}: expected FROM:TO:STEP with TO above FROM and STEP above 0", text));
   }
+  constexpr double kMaxSteps = 10000, kRounding = 1e-9;
+  const double steps = std::floor((numbers[1] - numbers[0]) / numbers[2] + kRounding);
+  if (steps > kMaxSteps) {
+    throw InputError(fmt::format("--speed {}: {:.10g} speeds; valid: at most {}; use a larger STEP", text, steps + 1.0,
+                                 kMaxSteps + 1.0));
+  }
   std::vector<double> speeds;
-  constexpr double kRounding = 1e-9;
-  const auto count = static_cast<int>(std::floor((numbers[1] - numbers[0]) / numbers[2] + kRounding));
-  for (int i = 0; i <= count; ++i) speeds.push_back(numbers[0] + i * numbers[2]);
+  for (int i = 0; i <= static_cast<int>(steps); ++i) speeds.push_back(numbers[0] + i * numbers[2]);
   return speeds;
 }
 

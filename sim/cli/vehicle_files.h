@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -11,12 +10,6 @@
 #include "sim/scenario/scenario.h"
 
 namespace hedgehop::sim::cli {
-
-/// Returns a number with this many decimals; zero has no minus.
-inline std::string decimals(double value, int count) {
-  const double unit = std::pow(10.0, count);
-  return fmt::format("{:.{}f}", std::round(value * unit) / unit + 0.0, count);
-}
 
 /// Returns `compute(vehicle)` for a vehicle's file; a vehicle that cannot fly is bad input, reported with the file's
 /// name.

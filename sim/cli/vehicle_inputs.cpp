@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -11,11 +10,10 @@
 #include "dynamics/steady_flight.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim::cli {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 std::vector<VehicleInput> inputs_of(const dynamics::VehicleConfig& vehicle) {
   enum : Eigen::Index { u, v, w, p, q, r, phi, theta, psi };

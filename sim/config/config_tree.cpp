@@ -1,4 +1,5 @@
 #include "sim/config/config_tree.h"
+#include "sim/fields/shortened.h"
 
 #include <fmt/format.h>
 
@@ -31,9 +32,8 @@ std::string Node::description() const {
     case Kind::scalar:
       break;
   }
-  constexpr size_t kMaxLetters = 80;
-  const bool is_long = text.size() > kMaxLetters;
-  return fmt::format("{}'{}'", quoted ? "the text " : "", is_long ? text.substr(0, kMaxLetters) + "..." : text);
+  constexpr size_t kMaxBytes = 80;
+  return fmt::format("{}'{}'", quoted ? "the text " : "", shortened(text, kMaxBytes));
 }
 
 SourcePosition position_of(const Node& root, std::string_view path) {

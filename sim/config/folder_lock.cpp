@@ -14,6 +14,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/pending_file.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -51,6 +52,7 @@ FolderLock::FolderLock(const fs::path& folder, std::string_view part) : folder_(
 FolderLock::~FolderLock() { release(); }
 
 void FolderLock::make_folder() {
+  require_writable(folder_);
   std::error_code error;
   std::vector<fs::path> missing;
   for (fs::path at = fs::absolute(folder_).lexically_normal(); !fs::exists(at, error) && at.has_relative_path();
@@ -61,9 +63,8 @@ void FolderLock::make_folder() {
     if (fs::create_directory(at, error)) made_.push_back(at);
     if (!error) continue;
     release();
-    const std::string what = fmt::format("{}: cannot write results: {}", folder_.string(), at.string());
-    if (fs::is_symlink(at)) throw InputError(what + ": is a link to a missing folder");
-    throw std::runtime_error(fmt::format("{}: {}", what, error.message()));
+    throw std::runtime_error(
+        fmt::format("{}: cannot write results: {}: {}", folder_.string(), at.string(), error.message()));
   }
 }
 

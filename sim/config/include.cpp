@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <ios>
 #include <stdexcept>
 
 #include "sim/config/config_tree.h"
 #include "sim/config/other_units.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -54,7 +53,7 @@ void set_positions(Node& node, const SourcePosition& position) {
 std::string installed_scenarios_advice(const fs::path& file) {
   std::error_code error;
   const fs::path installed = installed_configs();
-  if (installed.empty() || fs::exists(file, error)) return {};
+  if (installed.empty() || fs::status(file, error).type() != fs::file_type::not_found) return {};
   return fmt::format("; the installed scenarios: cp -r {} .", installed.string());
 }
 
@@ -114,11 +113,12 @@ class Includer {
   }
 
   /// Replaces every `use` under `node`.
-  /// @param key  of the node.
+  /// @param key  of the node; kParametersKey everywhere below a foreign module's parameters, whose units stay.
   void expand(Node& node, const fs::path& folder, std::string_view key) {
-    for (Node& item : node.items) expand(item, folder, "");
+    const bool is_foreign = key == kParametersKey;
+    for (Node& item : node.items) expand(item, folder, is_foreign ? key : "");
     for (Entry& entry : node.entries) {
-      if (entry.key != "use") expand(entry.value, folder, entry.key);
+      if (entry.key != "use") expand(entry.value, folder, is_foreign ? key : entry.key);
     }
     const auto use =
         std::find_if(node.entries.begin(), node.entries.end(), [](const Entry& e) { return e.key == "use"; });
@@ -203,7 +203,10 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   const std::string value_text = text.substr(equals + 1);
   ErrorList of_value(errors.kind());
   Node value = value_text.empty() ? Node{} : parse_yaml(value_text, position.file, of_value);
-  if (!of_value.empty()) return errors.add(position, fmt::format("'{}' is not a YAML value", value_text));
+  if (!of_value.empty()) {
+    errors.add(position, fmt::format("'{}' is not a YAML value: {}", value_text, of_value.first_message()));
+    return;
+  }
   set_positions(value, position);
   if (keys.back() == "use" && keys.size() > 1) {
     Node map;
@@ -216,7 +219,7 @@ void apply_override(Node& root, const std::string& text, const fs::path& folder,
   Entry last{std::move(keys.back()), position, std::move(value)};
   const bool is_foreign = std::ranges::find(keys, kParametersKey) != keys.end();
   if (!is_foreign) convert_units(last, keys.size() > 1 ? keys[keys.size() - 2] : "", errors);
-  includer.expand(last.value, folder, last.key);
+  includer.expand(last.value, folder, is_foreign ? kParametersKey : last.key);
   keys.back() = last.key;
 
   Node* node = &root;
@@ -279,22 +282,6 @@ std::filesystem::path installed_configs() {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::filesystem::path configs = program.parent_path().parent_path() / "share" / "hedgehop" / "configs";
   return std::filesystem::is_directory(configs, error) ? configs : std::filesystem::path();
-}
-
-std::string read_input_file(const std::filesystem::path& file) {
-  constexpr uintmax_t kMaxBytes = 64'000'000;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("there is no such file");
-  if (std::filesystem::is_directory(file, error)) throw std::invalid_argument("is a folder, not a file");
-  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument("is a device or a pipe, not a file");
-  const uintmax_t bytes = std::filesystem::file_size(file, error);
-  if (error || bytes > kMaxBytes) throw std::invalid_argument("is larger than 64 MB");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(bytes, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(bytes));
-  text.resize(static_cast<size_t>(stream.gcount()));
-  if (!stream.is_open() || stream.bad()) throw std::invalid_argument("the file cannot be read");
-  return text;
 }
 
 }  // namespace hedgehop::sim

@@ -31,10 +31,6 @@ void override_with(Node& base, const Node& over);
 void apply_overrides(Node& root, std::span<const std::string> overrides, const std::filesystem::path& file,
                      ErrorList& errors, std::set<std::filesystem::path>& read);
 
-/// Returns the bytes of an input file. Throws std::invalid_argument with the reason, without the file's name, if the
-/// file is missing, is not a regular file (folder, device, pipe), is larger than 64 MB, or cannot be read.
-std::string read_input_file(const std::filesystem::path& file);
-
 /// Returns the folder of the scenarios installed with the running program; empty if there is no such folder.
 std::filesystem::path installed_configs();
 

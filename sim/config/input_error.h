@@ -71,6 +71,8 @@ class ErrorList {
   void add(const SourcePosition& position, std::string message);
   bool empty() const { return count_ == 0; }
   size_t count() const { return count_; }
+  /// Returns the message that was added first, without its position. Must not be empty.
+  const std::string& first_message() const { return errors_.front().message; }
   /// Throws InputError with all errors, grouped by file, each file from top to bottom. Has no effect if empty.
   void throw_if_any() const;
 

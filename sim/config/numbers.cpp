@@ -82,4 +82,10 @@ std::string yaml_1_1_number(double value) {
   return text;
 }
 
+std::string yaml_1_1_list(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + yaml_1_1_number(value + 0.0);
+  return text;
+}
+
 }  // namespace hedgehop::sim

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,5 +28,7 @@ std::string number_text(double member, bool degrees);
 /// Returns a number as number_text(), for files of other programs: with a point before an exponent, "2.0e-05". Readers
 /// of YAML 1.1 such as PyYAML take "2e-05" for a text.
 std::string yaml_1_1_number(double value);
+/// Returns such numbers as the items of a list, "1, 2.0e-05"; -0 is written 0.
+std::string yaml_1_1_list(std::span<const double> values);
 
 }  // namespace hedgehop::sim

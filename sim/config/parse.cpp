@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
+
+#include "sim/config/syntax_error.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -36,6 +39,10 @@ class Builder : public YAML::EventHandler {
   Builder(std::string file, ErrorList& errors) : file_(std::move(file)), errors_(errors) {}
 
   Node take() { return std::move(root_); }
+  /// Start of the innermost list or map that has no end yet; line 0 if there is none.
+  SourcePosition container() const { return open_.empty() ? SourcePosition() : open_.back().node.position; }
+  /// Start of the last scalar if that is quoted.
+  const std::optional<SourcePosition>& last_quote() const { return last_quote_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -52,6 +59,7 @@ class Builder : public YAML::EventHandler {
     Node node = make(Node::Kind::scalar, mark, tag);
     node.text = value;
     node.quoted = tag == "!";
+    last_quote_ = node.quoted ? std::optional(node.position) : std::nullopt;
     add(std::move(node), anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -163,6 +171,7 @@ class Builder : public YAML::EventHandler {
   std::map<YAML::anchor_t, Node> anchors_;
   size_t nodes_ = 0;
   bool too_many_ = false;
+  std::optional<SourcePosition> last_quote_;
 };
 
 /// Returns why a text is not scanned, which costs up to 130 bytes and 0.2 us per letter; empty if it is scanned.
@@ -170,6 +179,31 @@ std::string size_error(const std::string& text) {
   if (text.size() > kMaxBytes) return fmt::format("more than {} MB of YAML", kMaxBytes / 1'000'000);
   const auto opens = std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; });
   return static_cast<size_t>(opens) > kMaxNodes ? fmt::format("more than {} lists and maps", kMaxNodes) : "";
+}
+
+void parse(const std::string& text, Builder& builder) {
+  std::istringstream stream(text);
+  YAML::Parser(stream).HandleNextDocument(builder);
+}
+
+/// Returns the start of a quote without an end. The parser reports such a quote only if no line break follows it.
+std::optional<SourcePosition> unclosed_quote(const std::string& text, const std::string& file) {
+  ErrorList ignored("");
+  bool is_unclosed = false;
+  try {
+    Builder builder(file, ignored);
+    parse(text.substr(0, text.find_last_not_of(" \t\r\n") + 1), builder);
+  } catch (const YAML::Exception& error) {
+    is_unclosed = error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
+  } catch (const TooLarge&) {
+  }
+  if (!is_unclosed) return {};
+  Builder builder(file, ignored);
+  try {
+    parse(text + "\n", builder);
+  } catch (const YAML::Exception&) {  // a list around the quote has no end either
+  }
+  return builder.last_quote();
 }
 
 }  // namespace
@@ -188,6 +222,10 @@ Node parse_yaml(const std::string& text, const std::string& file, ErrorList& err
       return {};
     }
     Node root = builder.take();
+    if (const auto quote = builder.last_quote() ? unclosed_quote(text, file) : std::nullopt) {
+      add_syntax_error(text, {*quote, YAML::ErrorMsg::EOF_IN_SCALAR, {}}, errors);
+      return {};
+    }
     ErrorList ignored(errors.kind());
     Builder second(file, ignored);
     if (parser.HandleNextDocument(second)) {
@@ -201,9 +239,10 @@ Node parse_yaml(const std::string& text, const std::string& file, ErrorList& err
   } catch (const YAML::DeepRecursion& error) {
     errors.add({file, error.mark.line + 1, error.mark.column + 1}, "lists and maps are nested too deeply");
   } catch (const YAML::Exception& error) {
-    // The parser reports the key after the key that lacks its colon.
-    const std::string advice = error.msg == YAML::ErrorMsg::MAP_VALUE ? "; does the line before lack a colon?" : "";
-    errors.add({file, error.mark.line + 1, error.mark.column + 1}, error.msg + advice);
+    const auto quote = unclosed_quote(text, file);
+    const SourcePosition stop{file, error.mark.line + 1, error.mark.column + 1};
+    add_syntax_error(
+        text, {quote.value_or(stop), quote ? YAML::ErrorMsg::EOF_IN_SCALAR : error.msg, builder.container()}, errors);
   } catch (const std::exception& error) {
     errors.add({file, 0, 0}, fmt::format("cannot be read as YAML: {}", error.what()));
   }

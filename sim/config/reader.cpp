@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/fields/bounds.h"
 
@@ -35,7 +36,10 @@ void refuse_integer(T lowest, T highest, const Node& node, const std::string& pa
   const bool digits_only =
       node.text.size() > sign && node.text.find_first_not_of("0123456789", sign) == std::string::npos;
   if (is_plain_scalar(node) && digits_only) {
-    errors.add(node.position, fmt::format("'{}': must be between {} and {}, got {}", path, lowest, highest, node.text));
+    constexpr double kHuge = std::numeric_limits<double>::max();
+    const auto bound = fields::broken_bound(node.text.starts_with('-') ? -kHuge : kHuge, field);
+    const std::string valid = bound.value_or(fmt::format("between {} and {}", lowest, highest));
+    errors.add(node.position, fmt::format("'{}': must be {}, got {}", path, valid, node.text));
   } else {
     expected(number_words("a whole number", field), node, path, errors);
   }

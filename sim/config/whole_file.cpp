@@ -10,7 +10,7 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -18,15 +18,24 @@
 namespace hedgehop::sim {
 namespace {
 
-[[noreturn]] void fail_reading(const std::filesystem::path& file, int error) {
-  throw std::runtime_error(fmt::format("cannot read {}: {}", file.string(), std::strerror(error)));
+/// Throws InputError if the user can correct the fault, std::runtime_error if it is the machine's.
+[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+  const bool is_missing = error == ENOENT || error == ENOTDIR;
+  const std::string text = fmt::format(
+      "{}: {}", file.string(), is_missing ? "there is no such file" : unreadable({error, std::generic_category()}));
+  if (is_missing || error == EACCES || error == EPERM || error == ELOOP || error == ENAMETOOLONG)
+    throw InputError(text);
+  throw std::runtime_error(text);
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string_view why) {
-  throw InputError(fmt::format("cannot read {}: {}", file.string(), why));
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder, const std::filesystem::path& there,
+                                const std::string& why) {
+  throw InputError(fmt::format("{}: cannot write results: {}: {}", folder.string(), there.string(), why));
 }
 
 }  // namespace
+
+std::string unreadable(const std::error_code& error) { return fmt::format("cannot be read: {}", error.message()); }
 
 void write_file_whole(const std::filesystem::path& file, std::string_view text) {
   StreamedFile out(file);
@@ -36,14 +45,14 @@ void write_file_whole(const std::filesystem::path& file, std::string_view text) 
 
 std::string read_file_whole(const std::filesystem::path& file) {
   const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
-  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) refuse(file, std::strerror(errno));
-  if (descriptor < 0) fail_reading(file, errno);
+  if (descriptor < 0) refuse(file, errno);
   struct stat info = {};
   std::string text;
   int error = ::fstat(descriptor, &info) == 0 ? 0 : errno;
   if (error == 0 && !S_ISREG(info.st_mode)) {
     ::close(descriptor);
-    refuse(file, S_ISDIR(info.st_mode) ? std::strerror(EISDIR) : "is a device or a pipe, not a file");
+    throw InputError(
+        fmt::format("{}: is a {}, not a file", file.string(), S_ISDIR(info.st_mode) ? "folder" : "device or a pipe"));
   }
   if (error == 0) text.resize(static_cast<size_t>(info.st_size));
   size_t filled = 0;
@@ -54,7 +63,28 @@ std::string read_file_whole(const std::filesystem::path& file) {
     if (got < 0) error = errno;
   }
   ::close(descriptor);
-  if (error != 0) fail_reading(file, error);
+  if (error != 0) refuse(file, error);
+  return text;
+}
+
+std::string read_input_file(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  constexpr uintmax_t kMaxBytes = 64'000'000;
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) throw std::invalid_argument("there is no such file");
+  if (error) throw std::invalid_argument(unreadable(error));
+  if (fs::is_directory(status)) throw std::invalid_argument("is a folder, not a file");
+  if (!fs::is_regular_file(status)) throw std::invalid_argument("is a device or a pipe, not a file");
+  const uintmax_t bytes = fs::file_size(file, error);
+  if (error) throw std::invalid_argument(unreadable(error));
+  if (bytes > kMaxBytes) throw std::invalid_argument("is larger than 64 MB");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(bytes, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(bytes));
+  text.resize(static_cast<size_t>(stream.gcount()));
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(unreadable({errno, std::generic_category()}));
   return text;
 }
 
@@ -64,7 +94,7 @@ void require_writable(const std::filesystem::path& folder) {
   bool is_missing = false;
   for (; !std::filesystem::exists(there, error) && !error && there.has_relative_path(); there = there.parent_path()) {
     std::error_code ignored;
-    if (std::filesystem::is_symlink(there, ignored)) break;  // to a missing folder: none can be created here
+    if (std::filesystem::is_symlink(there, ignored)) refuse_folder(folder, there, "is a link to a missing folder");
     is_missing = true;
   }
   if (!error && !std::filesystem::is_directory(there, error)) error = std::make_error_code(std::errc::not_a_directory);
@@ -73,9 +103,7 @@ void require_writable(const std::filesystem::path& folder) {
   if (!error && !is_missing && ::access(there.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
   if (!error && is_missing && !::mkdtemp(probe.data())) error = {errno, std::generic_category()};
   if (!error && is_missing) ::rmdir(probe.c_str());
-  if (error) {
-    throw InputError(fmt::format("{}: cannot write results: {}: {}", folder.string(), there.string(), error.message()));
-  }
+  if (error) refuse_folder(folder, there, error.message());
 }
 
 void require_writable_file(const std::filesystem::path& file) {

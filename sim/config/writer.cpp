@@ -29,9 +29,10 @@ std::string always_quoted(const std::string& text) {
 std::string scalar(const ConfigOutline& node, bool in_list = false) {
   constexpr std::string_view kListSigns = ",?[]{}";
   if (node.kind == ConfigOutline::Kind::text) return yaml_quoted(node.value);
-  const bool ends_early =
-      node.kind == ConfigOutline::Kind::choice && node.value.find_first_of(kListSigns) < std::string::npos;
-  return in_list && ends_early ? always_quoted(node.value) : node.value;
+  const bool is_choice = node.kind == ConfigOutline::Kind::choice;
+  const bool ends_early = in_list && node.value.find_first_of(kListSigns) < std::string::npos;
+  const bool begins_list = node.value == "-";  // on a line of its own or after another dash
+  return is_choice && (ends_early || begins_list) ? always_quoted(node.value) : node.value;
 }
 
 /// Returns a key, quoted if it contains signs of YAML or would be null.

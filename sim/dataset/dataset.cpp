@@ -109,8 +109,9 @@ void check_poses(const DatasetRequest& request) {
   const size_t worlds = world_count(request);
   const size_t poses = parse_poses(read_file_whole(request.poses), file, {.of_camera = request.poses_of_camera}).size();
   if (request.images <= worlds * poses) return;
-  throw InputError(fmt::format("--images {}: {} has {} poses; valid: up to {} images in {} worlds", request.images,
-                               file, poses, worlds * poses, worlds));
+  throw InputError(fmt::format("--images {}: {} has {} pose{}; valid: up to {} image{}{}", request.images, file, poses,
+                               poses == 1 ? "" : "s", worlds * poses, worlds * poses == 1 ? "" : "s",
+                               worlds == 1 ? "" : fmt::format(" in {} worlds", worlds)));
 }
 
 /// A file's suffix and text.

@@ -97,17 +97,19 @@ class PoseParser {
     return std::abs(number(line, 0)) >= kMinNs && line.words[0].find('.') == std::string::npos;
   }
 
-  /// @param t_s  as the file states it, in its unit.
-  void require_near(const Line& line, double t_s, const std::string& word) const {
+  /// Refuses a time that is out of range. @param t_s  converted from the unit of its column. @param word  the file's
+  /// text. @param in_ns  unit of the column, else s.
+  void require_near(const Line& line, double t_s, const std::string& word, bool in_ns) const {
     constexpr double kMaxS = 4e9;  // the difference of two such times in ns has 64 bits
-    if (!(std::abs(t_s) <= kMaxS))
-      refuse(line, fmt::format("the time {} is beyond {:g} s; state the time in s", word, kMaxS));
+    if (std::abs(t_s) <= kMaxS) return;
+    refuse(line, fmt::format("the time {} {} is out of range; valid: -4e9 to 4e9 s{}", word, in_ns ? "ns" : "s",
+                             in_ns ? "" : "; state the time in s"));
   }
 
   /// Returns the time in the first column, ns; a double would lose digits. @param in_ns  unit of the column, else s.
   int64_t nanoseconds(const Line& line, bool in_ns) const {
     const std::string& word = line.words[0];
-    require_near(line, number(line, 0) * (in_ns ? 1e-9 : 1.0), word);
+    require_near(line, number(line, 0) * (in_ns ? 1e-9 : 1.0), word, in_ns);
     if (in_ns) {
       const auto parsed = parse_signed(word);
       if (!parsed) refuse(line, fmt::format("expected a time in whole ns, got '{}'", word));
@@ -204,7 +206,7 @@ class PoseParser {
                          Eigen::AngleAxisd(value(4), Eigen::Vector3d::UnitX()))
                             .toRotationMatrix();
         X_WB.translation() = p;
-        require_near(line, value(0), line.words[columns.at("t")]);
+        require_near(line, value(0), line.words[columns.at("t")], false);
         poses.push_back({value(0), X_WB});
         continue;
       }

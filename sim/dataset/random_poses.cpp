@@ -45,6 +45,10 @@ RandomPose draw(Random& random, const PoseBounds& bounds, double duration_s, con
 std::vector<RandomPose> random_poses(size_t count, const PoseBounds& bounds, double duration_s,
                                      const scenes::Scene& scene, CollisionWorld& collision, uint64_t seed) {
   constexpr int kMaxDraws = 20'000;
+  if (scene.solids.empty() && scene.movers.empty()) {
+    throw InputError(fmt::format("the scene has no obstacle, so no pose is {} to {} m from one", bounds.min_distance_m,
+                                 bounds.max_distance_m));
+  }
   Random random(seed);
   std::vector<RandomPose> poses;
   for (int draws = 0; poses.size() < count;) {

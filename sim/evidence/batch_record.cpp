@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json group_json(const GroupSummary& group, const BatchOutcome& outcome) {
-  const Interval interval = outcome.success_interval(group.success);
+  const Interval interval = success_interval(group.success, !outcome.sequential.empty());
   return Json{{"group", group.group},
               {"flights", group.flights},
               {"passed", group.success.successes},
@@ -56,28 +56,30 @@ Json flight_json(const FlightRecord& record) {
               {"result", record.result ? to_json(record.result->info, record.result->flight) : Json(nullptr)}};
 }
 
-/// Returns a number with two decimals, without the sign of a zero.
-std::string hundredths(double value) {
-  const std::string text = fmt::format("{:.2f}", value);
-  return text == "-0.00" ? "0.00" : text;
+/// Returns a number of a group with some decimals; "-" if no flight has it, "no obstacle" for an infinite clearance.
+std::string group_figure(double value, int count) {
+  if (std::isnan(value)) return "-";
+  return std::isinf(value) ? "no obstacle" : decimals(value, count);
 }
 
 std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
-  const Interval interval = outcome.success_interval(g.success);
+  const Interval interval = success_interval(g.success, !outcome.sequential.empty());
   std::string success = fmt::format("{} | {:.2f} to {:.2f}", g.success.successes, interval.low, interval.high);
-  if (g.unchecked > 0) {
-    success = g.success.trials == 0 ? fmt::format("{} | -", kNoChecks)
-                                    : fmt::format("{}; {} of {}", success, kNoChecks, g.unchecked);
+  if (g.success.trials == 0) {
+    success = g.unchecked > 0 ? fmt::format("{} | -", kNoChecks) : "0 | -";
+  } else if (g.unchecked > 0) {
+    success += fmt::format("; {} of {}", kNoChecks, g.unchecked);
   }
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", markdown_cell(g.group),
-                     g.flights, success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing,
-                     hundredths(g.min_clearance_m), hundredths(g.median_clearance_m), g.median_time_s);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(g.group), g.flights,
+                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing,
+                     group_figure(g.min_clearance_m, 2), group_figure(g.median_clearance_m, 2),
+                     group_figure(g.median_time_s, 0));
 }
 
 }  // namespace
 
-Interval BatchOutcome::success_interval(Count success) const {
-  return sequential.empty() ? wilson_interval(success, kTableConfidence) : anytime_interval(success, kTableConfidence);
+Interval success_interval(Count success, bool anytime) {
+  return anytime ? anytime_interval(success, kTableConfidence) : wilson_interval(success, kTableConfidence);
 }
 
 std::string BatchOutcome::interval_method() const { return sequential.empty() ? "wilson" : "anytime"; }

@@ -9,6 +9,10 @@
 
 namespace hedgehop::sim {
 
+/// Returns the interval (95 %) of a success rate: Wilson's for a number of flights planned in advance. @param anytime
+/// whether flights were stopped depending on their results: the interval then holds at any time.
+Interval success_interval(Count success, bool anytime);
+
 /// The results of a batch.
 struct BatchOutcome {
   std::vector<FlightRecord> records;  ///< under a stopping rule, none past its group's stop
@@ -16,10 +20,7 @@ struct BatchOutcome {
   std::vector<SequentialResult> sequential;  ///< one per group under a stopping rule, else empty
   Conduct conduct;
 
-  /// Interval (95 %) of a success rate: Wilson's for a number of flights planned in advance; under a stopping rule one
-  /// that holds at any time.
-  Interval success_interval(Count success) const;
-  std::string interval_method() const;  ///< "wilson" or "anytime"
+  std::string interval_method() const;  ///< of success_interval(): "wilson" or "anytime"
 };
 
 /// Returns the verdict on a batch: on its claims under a stopping rule, else on its checks over the seeds, else on its

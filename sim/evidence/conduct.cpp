@@ -133,17 +133,22 @@ std::vector<std::string> deviations(const Registration& plan, const std::vector<
   return found;
 }
 
-void require_planned_number(const BatchOrders& batch) {
+void require_planned_number(const BatchOrders& batch, const std::string& rule) {
   if (batch.checks.empty() && !batch.leaderboard) return;
-  throw InputError(
-      "--until: success_rate, no_worse and leaderboards are for a number of flights planned in advance; stopping early "
-      "would falsify them");
+  throw InputError(fmt::format(
+      "{}: success_rate, no_worse and leaderboards are for a number of flights planned in advance; stopping "
+      "early would falsify them",
+      rule));
+}
+
+void require_planned_number(const BatchOrders& batch, const Registration& plan) {
+  if (plan.config.rule) require_planned_number(batch, plan.file.string() + ": rule");
 }
 
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s) {
   std::vector<Order> orders;
-  std::ranges::copy_if(batch.orders, std::back_inserter(orders), &std::string::empty, &Order::fault);
+  std::ranges::remove_copy_if(batch.orders, std::back_inserter(orders), is_refused);
   Conduct conduct{.planned = static_cast<int64_t>(orders.size()), .tuned_on = batch.tuned_on, .rule = rule};
   conduct.checks = batch.checks;
   std::vector<uint64_t> seeds;

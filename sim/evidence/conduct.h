@@ -101,9 +101,12 @@ struct Conduct {
 };
 
 /// Refuses a stopping rule together with checks over the seeds or a leaderboard. Throws InputError.
-void require_planned_number(const BatchOrders& batch);
+/// @param rule  place of the rule, such as "--until".
+void require_planned_number(const BatchOrders& batch, const std::string& rule);
+/// The same for the rule of a plan, if it has one.
+void require_planned_number(const BatchOrders& batch, const Registration& plan);
 
-/// Returns how a batch is flown; orders with a fault do not count. @param limit_s  maximum wall time of a flight; 0 for
+/// Returns how a batch is flown; refused orders do not count. @param limit_s  maximum wall time of a flight; 0 for
 /// no limit.
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s);

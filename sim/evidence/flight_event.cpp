@@ -9,6 +9,7 @@
 #include "sim/config/config_tree.h"
 #include "sim/config/input_error.h"
 #include "sim/config/numbers.h"
+#include "sim/fields/shortened.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -37,10 +38,10 @@ bool flew(const FlightRecord& record) { return record.result && verdict_of(recor
 }  // namespace
 
 void require_short_rule(std::string_view text) {
-  constexpr size_t kMaxLetters = 200;
-  if (text.size() <= kMaxLetters) return;
+  constexpr size_t kMaxBytes = 200;
+  if (text.size() <= kMaxBytes) return;
   throw InputError(
-      fmt::format("'{}...': has {} letters; a claim has at most {}", text.substr(0, 40), text.size(), kMaxLetters));
+      fmt::format("'{}': has {} bytes; a claim has at most {}", shortened(text, 40), text.size(), kMaxBytes));
 }
 
 FlightEvent parse_event(std::string_view text, std::string_view rule) {

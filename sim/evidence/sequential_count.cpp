@@ -44,6 +44,7 @@ GroupVerdict verdict_of(const SequentialResult& result) {
 SequentialCount::SequentialCount(StoppingRule rule, const std::vector<Order>& orders) : rule_(std::move(rule)) {
   const bool pairs = std::holds_alternative<PairClaim>(rule_.claim);
   for (const Order& order : orders) {
+    if (is_refused(order)) continue;
     Group& group = group_named(pairs ? "candidate against base" : order.group);
     const bool second = pairs && !group.seeds.empty() && group.seeds.back() == order.seed;
     if (!second) {
@@ -61,10 +62,15 @@ SequentialCount::Group& SequentialCount::group_named(const std::string& name) {
   return groups_.emplace_back(Group{.name = name, .tally = tally_of(rule_), .seeds = {}, .observed = {}});
 }
 
+const SequentialCount::FlightSlot* SequentialCount::slot_of(const Order& order) const {
+  return is_refused(order) ? nullptr : &slots_.at(order.id);
+}
+
 bool SequentialCount::ended(const FlightRecord& record) {
-  const FlightSlot& slot = slots_.at(record.order.id);
-  Group& group = groups_[slot.group];
-  group.observed[slot.unit][slot.member] =
+  const FlightSlot* const slot = slot_of(record.order);
+  if (!slot) return false;
+  Group& group = groups_[slot->group];
+  group.observed[slot->unit][slot->member] =
       std::visit([&](const auto& tally) { return tally.observe(record); }, group.tally);
   const bool was_undecided = group.standing == Standing::undecided;
   advance(group);
@@ -89,13 +95,14 @@ void SequentialCount::advance(Group& group) {
   }
 }
 
-bool SequentialCount::wanted(const Order& order) const {
-  return groups_[slots_.at(order.id).group].standing == Standing::undecided;
+bool SequentialCount::counted(const Order& order) const {
+  const FlightSlot* const slot = slot_of(order);
+  return slot && slot->unit < groups_[slot->group].next;
 }
 
-bool SequentialCount::counted(const Order& order) const {
-  const FlightSlot& slot = slots_.at(order.id);
-  return slot.unit < groups_[slot.group].next;
+bool SequentialCount::discarded(const Order& order) const {
+  const FlightSlot* const slot = slot_of(order);
+  return slot && groups_[slot->group].standing != Standing::undecided && !counted(order);
 }
 
 SequentialResult SequentialCount::result_of(const Group& group) const {

@@ -30,6 +30,7 @@ GroupVerdict verdict_of(const SequentialResult& result);
 /// Counts flights in the order of their orders, not of their ends: a flight counts when all flights before it have
 /// ended, and the rule is evaluated after each. Flights past the stop have no effect. The result is therefore equal for
 /// any number of workers and after an interruption, and flights that end early are not more likely to be counted.
+/// Refused orders are neither planned nor counted nor discarded.
 class SequentialCount {
  public:
   /// @param orders  in the order in which they are to be flown. A claim about pairs takes the first order of a seed as
@@ -39,12 +40,10 @@ class SequentialCount {
   /// Adds a flight that has ended; flights may end in any order. Returns whether it has decided its group. The other
   /// flights of a decided group do not count.
   bool ended(const FlightRecord& record);
-  /// Whether the flight may still count: its group is undecided.
-  bool wanted(const Order& order) const;
   /// Whether the flight has been counted.
   bool counted(const Order& order) const;
   /// Whether the flight lies past its group's stop.
-  bool discarded(const Order& order) const { return !counted(order) && !wanted(order); }
+  bool discarded(const Order& order) const;
 
   std::vector<SequentialResult> results() const;
 
@@ -61,6 +60,7 @@ class SequentialCount {
     size_t group, unit, member;
   };
   Group& group_named(const std::string& name);
+  const FlightSlot* slot_of(const Order& order) const;  ///< nullptr for a refused order
   static void advance(Group& group);
   SequentialResult result_of(const Group& group) const;
 

@@ -1,7 +1,6 @@
 #include "sim/export/formats.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string_view>
@@ -19,17 +18,11 @@ const std::filesystem::path kRoot = "mav0";
 
 std::filesystem::path camera_folder(size_t camera) { return kRoot / fmt::format("cam{}", camera); }
 
-std::string list(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(yaml_1_1_number(number));
-  return fmt::format("{}", fmt::join(texts, ", "));
-}
-
 std::string pose(const Eigen::Isometry3d& X) {
   std::string text = "T_BS:\n  cols: 4\n  rows: 4\n  data: [";
   for (int row = 0; row < 4; ++row) {
     const Eigen::RowVector4d r = X.matrix().row(row);
-    text += fmt::format("{}{}", row == 0 ? "" : ",\n         ", list({r.begin(), r.end()}));
+    text += fmt::format("{}{}", row == 0 ? "" : ",\n         ", yaml_1_1_list({r.data(), 4}));
   }
   return text + "]\n";
 }
@@ -74,7 +67,7 @@ std::string camera_sensor(const RecordedCamera& camera) {
       "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\ncamera_model: {}\n"
       "intrinsics: [{}]\ndistortion_model: {}\ndistortion_coefficients: [{}]\n",
       yaml_quoted(camera.role), pose(camera.X_FC), camera.rate_hz, camera.width_px, camera.height_px, lens.camera_model,
-      list(lens.intrinsics), lens.distortion_model, list(lens.distortion));
+      yaml_1_1_list(lens.intrinsics), lens.distortion_model, yaml_1_1_list(lens.distortion));
 }
 
 std::string camera_data(const RecordedCamera& camera) {

@@ -133,14 +133,10 @@ class Recorder : public FlightWatcher {
             R_FB() * tick.imu_bias.specific_force_B_meas};
   }
 
-  const avoidance::CameraFrame* frame_of(const SensorTick& tick, const std::string& role) const {
-    const auto frame = std::ranges::find(tick.frames, role, &avoidance::CameraFrame::role);
-    return frame == tick.frames.end() ? nullptr : &*frame;
-  }
-
   bool take_images(const SensorTick& tick) {
     std::vector<const avoidance::CameraFrame*> frames;
-    for (const RecordedCamera& camera : record_.cameras) frames.push_back(frame_of(tick, camera.role));
+    for (const RecordedCamera& camera : record_.cameras)
+      frames.push_back(avoidance::find_frame(tick.frames, camera.role));
     // KITTI numbers the images of all cameras equally, so an instant with a lost image is omitted.
     const bool lost = std::ranges::find(frames, nullptr) != frames.end();
     if (request_.format == DataFormat::kitti && lost) return false;

@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -121,7 +122,6 @@ CdrWriter ros_odometry(const RosHeader& header, const std::string& child, const 
 }
 
 CdrWriter ros_fix(const RosHeader& header, const Eigen::Vector3d& p_W_m, const dynamics::sensors::GpsConfig& config) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   constexpr uint8_t kDiagonalKnown = 2;
   const double latitude_rad = kOriginLatitudeDeg / kDegPerRad;
   const EarthRadii radii = earth_radii(latitude_rad);

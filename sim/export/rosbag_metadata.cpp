@@ -5,23 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/config/outline_texts.h"
+
 namespace hedgehop::sim {
-namespace {
-
-/// Returns a text in double quotes, as YAML escapes it.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '\n') {
-      out += "\\n";
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
-}  // namespace
 
 std::string qos_profiles(RosDurability durability) {
   constexpr int kKeepLast = 1, kReliable = 1, kTransientLocal = 1, kVolatile = 2, kAutomatic = 1;
@@ -45,7 +31,7 @@ std::string rosbag_metadata(const std::string& file, int64_t start_ns, int64_t d
     text += fmt::format(
         "    - topic_metadata:\n        name: {}\n        type: {}\n        serialization_format: cdr\n"
         "        offered_qos_profiles: {}\n      message_count: {}\n",
-        topic.name, topic.type, quoted(qos_profiles(topic.durability)), topic.messages);
+        topic.name, topic.type, yaml_quoted(qos_profiles(topic.durability)), topic.messages);
   }
   return text +
          fmt::format(

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
+#include "sim/config/numbers.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -41,19 +45,20 @@ std::string readings(const char* title, const char* columns, const SensorRecord&
 
 std::string calibration(const RecordedCamera& camera) {
   const Intrinsics& lens = camera.lens;
+  const std::array<double, 9> matrix = {
+      lens.focal_x_px, 0, lens.center_u_px, 0, lens.focal_y_px, lens.center_v_px, 0, 0, 1};
   std::string pose;
   for (int row = 0; row < 4; ++row) {
     const Eigen::RowVector4d r = camera.X_FC.matrix().row(row);
-    pose += fmt::format("{}{}, {}, {}, {}", row == 0 ? "" : ",\n          ", r[0], r[1], r[2], r[3]);
+    pose += fmt::format("{}{}", row == 0 ? "" : ",\n          ", yaml_1_1_list({r.data(), 4}));
   }
   return fmt::format(
       "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ndepth_per_meter: {:.1f}\n"
-      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [{}, 0., {}, 0., {}, {}, 0., 0., "
-      "1.]\n"
+      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [{}]\n"
       "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: {}\n   dt: d\n   data: [{}]\n"
       "imu_from_camera: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [{}]\n",
-      camera.width_px, camera.height_px, kTumDepthPerMeter, lens.focal_x_px, lens.center_u_px, lens.focal_y_px,
-      lens.center_v_px, lens.distortion.size(), fmt::join(lens.distortion, ", "), pose);
+      camera.width_px, camera.height_px, kTumDepthPerMeter, yaml_1_1_list(matrix), lens.distortion.size(),
+      yaml_1_1_list(lens.distortion), pose);
 }
 
 }  // namespace

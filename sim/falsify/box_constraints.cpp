@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <variant>
 
 #include "dynamics/hull.h"
 #include "sim/config/numbers.h"
+#include "sim/fields/quantities.h"
 #include "sim/verdict/shortest_path.h"
 
 namespace hedgehop::sim {
@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector2d;
 using scenes::BoxConfig;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 Vector2d along(const BoxConfig& box) { return {std::cos(box.heading_rad), std::sin(box.heading_rad)}; }
 Vector2d across(const BoxConfig& box) { return {-std::sin(box.heading_rad), std::cos(box.heading_rad)}; }

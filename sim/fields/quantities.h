@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace hedgehop {
 
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi, kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline double square(double x) { return x * x; }

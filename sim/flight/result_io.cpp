@@ -10,7 +10,6 @@
 
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
-#include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
@@ -18,7 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMaxDepth = 50;  // readers and writers of JSON are recursive
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Keys of the result and of its objects.
@@ -273,18 +271,6 @@ RunResult result_from_json(const Json& json) {
 
 std::string result_json(const RunInfo& info, const FlightResult& result) {
   return json_text(to_json(info, result), 2) + "\n";
-}
-
-Json read_json(const std::filesystem::path& file) {
-  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kMaxDepth) throw InputError(fmt::format("{}: is nested deeper than {}", file.string(), kMaxDepth));
-    return true;
-  };
-  try {
-    return Json::parse(read_file_whole(file), bounded);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
 }
 
 RunResult read_result(const std::filesystem::path& file) {

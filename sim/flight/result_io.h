@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/flight/flight.h"
+#include "sim/flight/json_file.h"
 
 /// result.json: its only writer and its only reader.
 namespace hedgehop::sim {
@@ -40,10 +41,6 @@ RunResult result_from_json(const nlohmann::ordered_json& json);
 
 /// Returns the text of result.json: to_json() with an indent of two spaces.
 std::string result_json(const RunInfo& info, const FlightResult& result);
-
-/// Reads a JSON file that a run wrote. Throws InputError naming the file if it is missing, malformed or nested deeper
-/// than 50 levels, and std::runtime_error if it cannot be read.
-nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
 /// Reads a result.json. Throws as read_json() and result_from_json(), naming the file.
 RunResult read_result(const std::filesystem::path& file);

@@ -25,18 +25,23 @@ std::string distinct_words(double value, double other, int min_digits, const Pri
 
 }  // namespace
 
+std::string counted(size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string decimals(double value, int count) {
+  std::string words = fmt::format("{:.{}f}", value, count);
+  const bool is_zero = words.find_first_not_of("-0.") == std::string::npos;
+  if (is_zero && words.starts_with('-')) words.erase(0, 1);
+  return words;
+}
+
 std::string distinct_figures(double value, double other) {
   return distinct_words(value, other, 4,
                         [](double number, int digits) { return fmt::format("{:.{}g}", number, digits); });
 }
 
-std::string distinct_decimals(double value, double other) {
-  return distinct_words(value, other, 3, [](double number, int digits) {
-    std::string words = fmt::format("{:.{}f}", number, digits);
-    if (words.find_first_of("123456789") == std::string::npos && words.starts_with('-')) words.erase(0, 1);
-    return words;
-  });
-}
+std::string distinct_decimals(double value, double other) { return distinct_words(value, other, 3, decimals); }
 
 std::string figure_words(double value, const std::string& unit, double other) {
   if (!std::isfinite(value)) return "unknown";
@@ -74,6 +79,12 @@ std::string shell_quoted(const std::string& word) {
     rest.remove_prefix(std::max<size_t>(1, length));
   }
   return escapes ? fmt::format("\"$(printf '{}')\"", quoted) : "'" + quoted + "'";
+}
+
+std::string last_line(std::string_view text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
+  const size_t begin = text.find_last_of("\r\n");
+  return std::string(begin == std::string_view::npos ? text : text.substr(begin + 1));
 }
 
 std::string markdown_cell(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -9,10 +10,16 @@
 /// Results of a flight in words, the same in the terminal, JUnit files, tables and pages.
 namespace hedgehop::sim {
 
+/// Returns "1 flight", "2 flights". @param noun  singular, with a plural in s.
+std::string counted(size_t count, std::string_view noun);
+
+/// Returns a number with this many decimals, >= 0. A number that is printed as zero has no sign.
+std::string decimals(double value, int count);
+
 /// Returns a number with as many significant figures, at least 4, as distinguish it from a number printed next to it.
 std::string distinct_figures(double value, double other);
 
-/// The same with decimals, at least 3. A number that is printed as zero has no sign.
+/// The same with decimals, at least 3, as decimals().
 std::string distinct_decimals(double value, double other);
 
 /// Returns a number with its unit: "0.62 m", "12"; "unknown" unless it is finite.
@@ -33,6 +40,9 @@ std::string renderer_words(const Libraries& libraries);
 /// Returns a word, quoted for a POSIX shell if necessary. Bytes that are not UTF-8 and control characters are octal:
 /// "$(printf 'caf\351.yaml')".
 std::string shell_quoted(const std::string& word);
+
+/// Returns the last line of a program's output that is not empty; a carriage return ends a line, too.
+std::string last_line(std::string_view text);
 
 /// Returns a text as a cell of a Markdown table, on one line and with its bars escaped.
 std::string markdown_cell(std::string_view text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -55,6 +56,8 @@ struct LogColumnsConfig {
   enum class Axes { frd, flu };
   /// control_positions are the columns of `controls` with positions that servos or motors have reached.
   enum class Inputs { motor_speeds, pwm, controls, setpoints, control_positions };
+  static constexpr std::array<std::string_view, 5> kInputNames = {"motor_speeds", "pwm", "controls", "setpoints",
+                                                                  "control_positions"};
   Axes axes = Axes::frd;
   std::optional<Inputs> inputs;  ///< default: the first of these kinds whose columns the log has
   double warm_up_s = 0.5;
@@ -69,7 +72,7 @@ void describe(Visitor& v, fields::ConfigOf<LogColumnsConfig> auto& c) {
      .meaning = "axes of the log, of its states and of commanded velocity, heading and torques: frd (world "
                 "north-east-down, body forward-right-down) or flu (world with z up, body forward-left-up)"});
   v("inputs", c.inputs,
-    {.choices = {"motor_speeds", "pwm", "controls", "setpoints", "control_positions"},
+    {.choices = {LogColumnsConfig::kInputNames.begin(), LogColumnsConfig::kInputNames.end()},
      .meaning = "recorded inputs; default: the first of these whose columns the log has; control_positions, in the "
                 "columns of controls, are positions that servos or motors have reached, as in trajectory.csv"});
   v("warm_up", c.warm_up_s,

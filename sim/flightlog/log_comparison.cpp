@@ -66,22 +66,24 @@ void add_force(const LogPart& part, Replay& replay, double mass_kg, double& sum_
   count += forces.size();
 }
 
+std::string_view name_of(LogColumnsConfig::Inputs kind) {
+  return LogColumnsConfig::kInputNames.at(static_cast<size_t>(kind));
+}
+
 /// Refuses logs that no linear model can be fitted to together.
 void require_equal_inputs(std::span<const RecordedFlight> flights) {
-  constexpr std::array<std::string_view, 5> kKinds = {"motor_speeds", "pwm", "controls", "setpoints",
-                                                      "control_positions"};
   constexpr double kMaxRatio = 1.1;  // of the periods; clocks differ by less
   const RecordedFlight& first = flights.front();
   for (const RecordedFlight& other : flights.subspan(1)) {
     if (other.kind != first.kind || other.inputs.cols() != first.inputs.cols()) {
       throw InputError(fmt::format("{} has {} columns of {}, {} has {} of {}; logs of one call need the same inputs",
-                                   first.name, first.inputs.cols(), kKinds.at(static_cast<size_t>(first.kind)),
-                                   other.name, other.inputs.cols(), kKinds.at(static_cast<size_t>(other.kind))));
+                                   first.file, first.inputs.cols(), name_of(first.kind), other.file,
+                                   other.inputs.cols(), name_of(other.kind)));
     }
     if (std::max(first.period_s, other.period_s) > kMaxRatio * std::min(first.period_s, other.period_s)) {
       throw InputError(
           fmt::format("{} has a sample every {:.4g} s, {} every {:.4g} s; logs of one call need the same rate",
-                      first.name, first.period_s, other.name, other.period_s));
+                      first.file, first.period_s, other.file, other.period_s));
     }
   }
 }

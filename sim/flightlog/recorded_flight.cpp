@@ -73,8 +73,10 @@ class Quantities {
   std::string late_start_advice(size_t row) const {
     const std::string t = column("t_s").from;
     if (!table_.has(t)) return "";
+    const std::vector<double> times = table_.numbers(t);
+    if (!std::isfinite(times.front())) return "";
     return fmt::format("; row {} has the first: scripts/convert-log {} --time {} --from {} -o CUT.csv", row + 1, file_,
-                       t, table_.numbers(t)[row]);
+                       t, times[row] - times.front());  // --from counts from the first row
   }
   LogColumnConfig column(const std::string& name) const {
     LogColumnConfig map{.name = name, .from = name};
@@ -198,7 +200,7 @@ RecordedFlight read_recorded_flight(const std::filesystem::path& file, const Log
                                     const dynamics::VehicleConfig& vehicle) {
   const Quantities log(file, config);
   RecordedFlight flight;
-  flight.name = file.stem().string();
+  flight.file = log.file();
   flight.warm_up_s = config.warm_up_s;
   flight.rate_feedback = config.rate_feedback;
   flight.torque_share = config.pwm.torque_share;

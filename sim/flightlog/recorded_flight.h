@@ -14,7 +14,7 @@ namespace hedgehop::sim {
 
 /// A flight as its log has it, in W and B, one entry or row per sample.
 struct RecordedFlight {
-  std::string name;         ///< of the file
+  std::string file;         ///< as the user named it
   std::vector<double> t_s;  ///< rising
   std::vector<dynamics::RigidBodyState> states;
   bool has_position = false;  ///< otherwise all positions are 0

@@ -18,18 +18,11 @@ bool keeps_rotor_speed(const dynamics::VehicleConfig& vehicle) {
   return helicopter && std::holds_alternative<dynamics::helicopter::ConstantSpeedConfig>(helicopter->rotor_speed);
 }
 
-LinkEnd lost(std::string words) { return {Outcome::link_lost, "link: " + std::move(words)}; }
-
 }  // namespace
-
-const ArduPilotLinkConfig& ardupilot_config(const Scenario& scenario) {
-  if (!scenario.link) throw std::logic_error("the scenario has no link");
-  return std::get<ArduPilotLinkConfig>(*scenario.link);
-}
 
 ArduPilotLink::ArduPilotLink(const Scenario& scenario, std::unique_ptr<PacketSource> source, MessageChannel* channel,
                              std::filesystem::path recording)
-    : config_(ardupilot_config(scenario)),
+    : config_(std::get<ArduPilotLinkConfig>(scenario.link.value())),
       physics_rate_hz_(static_cast<double>(scenario.physics_rate_hz.value())),
       range_period_(std::max<int64_t>(1, static_cast<int64_t>(physics_rate_hz_ / kRangeRateHz))),
       keeps_rotor_speed_(keeps_rotor_speed(scenario.vehicle)),
@@ -87,7 +80,7 @@ std::optional<LinkEnd> ArduPilotLink::exchange_messages(const OutsideInput& inpu
     return LinkEnd{Outcome::fault, error.what()};
   }
   if (!source_->send_serial(serial_out_)) {
-    return lost(fmt::format("the autopilot does not read its serial line at tick {}", input.step));
+    return link_lost(fmt::format("the autopilot does not read its serial line at tick {}", input.step));
   }
   return std::nullopt;
 }
@@ -100,21 +93,21 @@ std::optional<LinkEnd> ArduPilotLink::answer(const OutsideInput& input) {
                            .specific_force_B = input.specific_force_B,
                            .wind_W = input.wind_W,
                            .range_m = range_m_};
-  if (!write_state(state, state_text_)) return lost(fmt::format("the state is not finite at tick {}", input.step));
+  if (!write_state(state, state_text_)) return link_lost(fmt::format("the state is not finite at tick {}", input.step));
   source_->answer(state_text_);
   order_.answered();
-  answered_s_ = heard_s_ = source_->now_s();
+  answered_s_ = waiting_since_s_ = source_->now_s();
   return std::nullopt;
 }
 
 std::variant<OutsideCommand, LinkEnd> ArduPilotLink::wait_for_next(const OutsideInput& input) {
-  if (!order_.last()) heard_s_ = source_->now_s();
+  if (!order_.last()) waiting_since_s_ = source_->now_s();
   for (;;) {
     const double patience_s = order_.last() ? config_.silence_s : config_.start.first_packet_s;
-    const auto found = source_->next(input.step, heard_s_ + patience_s);
+    const auto found = source_->next(input.step, waiting_since_s_ + patience_s);
     if (const auto* const absence = std::get_if<PacketSource::Absence>(&found)) {
       if (!order_.last()) throw InputError("link: " + absence->words);
-      return lost(fmt::format("{} at tick {}", absence->words, input.step));
+      return link_lost(fmt::format("{} at tick {}", absence->words, input.step));
     }
     Taken taken = take(std::get<PacketSource::Packet>(found), input.step, input.step + 1);
     if (!taken) continue;
@@ -151,8 +144,7 @@ ArduPilotLink::Taken ArduPilotLink::take(const PacketSource::Packet& packet, int
     case PacketOrder::Judgment::next:
       return mixing_.command(*servos);
     case PacketOrder::Judgment::refused:
-      // A recording has no wall times, so that each of its repeats seems to come at once.
-      if (!source_->has_more()) return lost(fmt::format("it refuses our state (frame {})", servos->count));
+      if (const std::optional<std::string> reason = source_->end_by_repeats(servos->count)) return link_lost(*reason);
       [[fallthrough]];
     case PacketOrder::Judgment::repeated:
       ++figures_.repeated;
@@ -167,13 +159,13 @@ ArduPilotLink::Taken ArduPilotLink::take(const PacketSource::Packet& packet, int
       return std::nullopt;
     case PacketOrder::Judgment::gap:
       figures_.missed += servos->count - *last - 1;
-      return lost(fmt::format("packets {} to {} are missing", *last + 1, servos->count - 1));
+      return link_lost(fmt::format("packets {} to {} are missing", *last + 1, servos->count - 1));
     case PacketOrder::Judgment::restart:
-      return lost(fmt::format("the autopilot restarted at tick {}", step));
+      return link_lost(fmt::format("the autopilot restarted at tick {}", step));
     case PacketOrder::Judgment::early:
       break;
   }
-  return lost(fmt::format("packet {} came before the answer to packet {}", servos->count, *last));
+  return link_lost(fmt::format("packet {} came before the answer to packet {}", servos->count, *last));
 }
 
 /// Range finders read at kRangeRateHz and keep their reading in between.

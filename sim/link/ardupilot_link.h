@@ -66,10 +66,8 @@ class ArduPilotLink : public OutsideAutopilot {
   std::vector<double> range_m_;
   std::string state_text_;
   std::vector<uint8_t> serial_in_, serial_out_;
-  double answered_s_ = 0.0, heard_s_ = 0.0;  ///< wall times
+  double answered_s_ = 0.0;       ///< wall time of the last answer, which may repeat an earlier one
+  double waiting_since_s_ = 0.0;  ///< wall time from which a silence counts: repeats of packet and answer keep it
 };
-
-/// Returns the configuration of the scenario's link. Throws std::logic_error without one.
-const ArduPilotLinkConfig& ardupilot_config(const Scenario& scenario);
 
 }  // namespace hedgehop::sim::link

@@ -1,12 +1,11 @@
 #include "sim/link/hil_sensors.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "dynamics/air/atmosphere.h"
 #include "dynamics/sensors/sensor_errors.h"
+#include "sim/mavlink/message_fields.h"
 
 namespace hedgehop::sim::link {
 namespace {
@@ -45,22 +44,15 @@ Eigen::Vector3d field_W() {
           kFieldGauss * std::sin(radians(kInclinationDeg))};
 }
 
-template <class Whole>
-Whole nearest(double value) {
-  constexpr auto kLow = static_cast<double>(std::numeric_limits<Whole>::min());
-  constexpr auto kHigh = static_cast<double>(std::numeric_limits<Whole>::max());
-  return static_cast<Whole>(std::clamp(std::round(value), kLow, kHigh));
-}
-
 struct Coordinates {
   int32_t latitude_e7, longitude_e7, altitude_mm;
 };
 Coordinates coordinates_of(const Eigen::Vector3d& p_W) {
   constexpr double kPerDegree = 1e7 * 180.0 / std::numbers::pi;
   const double east_radius_m = kEarthRadiusM * std::cos(radians(kHomeLatitudeDeg));
-  return {nearest<int32_t>(1e7 * kHomeLatitudeDeg + kPerDegree * p_W.x() / kEarthRadiusM),
-          nearest<int32_t>(1e7 * kHomeLongitudeDeg + kPerDegree * p_W.y() / east_radius_m),
-          nearest<int32_t>(1e3 * (kHomeAltitudeM - p_W.z()))};
+  return {mavlink::rounded<int32_t>(1e7 * kHomeLatitudeDeg + kPerDegree * p_W.x() / kEarthRadiusM),
+          mavlink::rounded<int32_t>(1e7 * kHomeLongitudeDeg + kPerDegree * p_W.y() / east_radius_m),
+          mavlink::rounded<int32_t>(1e3 * (kHomeAltitudeM - p_W.z()))};
 }
 
 }  // namespace
@@ -120,19 +112,20 @@ std::optional<mavlink::HilGps> HilSensors::gps(int64_t step) {
   const Coordinates place = coordinates_of(fix->p_WB_W_meas);
   const Eigen::Vector3d v_cmps = 100.0 * fix->v_WB_W_meas;
   const double course_deg = std::atan2(v_cmps.y(), v_cmps.x()) * 180.0 / std::numbers::pi;
-  return mavlink::HilGps{.time_usec = time_us(step),
-                         .lat = place.latitude_e7,
-                         .lon = place.longitude_e7,
-                         .alt = place.altitude_mm,
-                         .eph = 30,
-                         .epv = 40,
-                         .vel = nearest<uint16_t>(v_cmps.head<2>().norm()),
-                         .vn = nearest<int16_t>(v_cmps.x()),
-                         .ve = nearest<int16_t>(v_cmps.y()),
-                         .vd = nearest<int16_t>(v_cmps.z()),
-                         .cog = nearest<uint16_t>(100.0 * (course_deg < 0.0 ? course_deg + 360.0 : course_deg)),
-                         .fix_type = kFix3d,
-                         .satellites_visible = kSatellites};
+  return mavlink::HilGps{
+      .time_usec = time_us(step),
+      .lat = place.latitude_e7,
+      .lon = place.longitude_e7,
+      .alt = place.altitude_mm,
+      .eph = 30,
+      .epv = 40,
+      .vel = mavlink::rounded<uint16_t>(v_cmps.head<2>().norm()),
+      .vn = mavlink::rounded<int16_t>(v_cmps.x()),
+      .ve = mavlink::rounded<int16_t>(v_cmps.y()),
+      .vd = mavlink::rounded<int16_t>(v_cmps.z()),
+      .cog = mavlink::rounded<uint16_t>(100.0 * (course_deg < 0.0 ? course_deg + 360.0 : course_deg)),
+      .fix_type = kFix3d,
+      .satellites_visible = kSatellites};
 }
 
 mavlink::HilStateQuaternion HilSensors::state(const OutsideInput& input) const {
@@ -140,7 +133,7 @@ mavlink::HilStateQuaternion HilSensors::state(const OutsideInput& input) const {
   const Eigen::Quaternionf q = input.body.q_WB.cast<float>();
   const Eigen::Vector3f w = input.body.w_WB_B.cast<float>();
   const Eigen::Vector3d v_W = input.body.q_WB * input.body.v_WB_B, f_mmps2 = 1e3 * input.specific_force_B;
-  const auto airspeed = nearest<uint16_t>(100.0 * (v_W - input.wind_W).norm());
+  const auto airspeed = mavlink::rounded<uint16_t>(100.0 * (v_W - input.wind_W).norm());
   return {.time_usec = time_us(input.step),
           .attitude_quaternion = {q.w(), q.x(), q.y(), q.z()},
           .rollspeed = w.x(),
@@ -149,14 +142,14 @@ mavlink::HilStateQuaternion HilSensors::state(const OutsideInput& input) const {
           .lat = place.latitude_e7,
           .lon = place.longitude_e7,
           .alt = place.altitude_mm,
-          .vx = nearest<int16_t>(100.0 * v_W.x()),
-          .vy = nearest<int16_t>(100.0 * v_W.y()),
-          .vz = nearest<int16_t>(100.0 * v_W.z()),
+          .vx = mavlink::rounded<int16_t>(100.0 * v_W.x()),
+          .vy = mavlink::rounded<int16_t>(100.0 * v_W.y()),
+          .vz = mavlink::rounded<int16_t>(100.0 * v_W.z()),
           .ind_airspeed = airspeed,
           .true_airspeed = airspeed,
-          .xacc = nearest<int16_t>(f_mmps2.x()),
-          .yacc = nearest<int16_t>(f_mmps2.y()),
-          .zacc = nearest<int16_t>(f_mmps2.z())};
+          .xacc = mavlink::rounded<int16_t>(f_mmps2.x()),
+          .yacc = mavlink::rounded<int16_t>(f_mmps2.y()),
+          .zacc = mavlink::rounded<int16_t>(f_mmps2.z())};
 }
 
 }  // namespace hedgehop::sim::link

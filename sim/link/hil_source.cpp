@@ -2,48 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <chrono>
-#include <string_view>
-#include <system_error>
-
-#include "sim/config/input_error.h"
 
 namespace hedgehop::sim::link {
-namespace {
-
-using HilClock = std::chrono::steady_clock;
-
-uint32_t bind_host(const std::string& text) {
-  const std::optional<uint32_t> host = parse_host(text);
-  if (!host) throw InputError(fmt::format("--bind: '{}' is no numeric IPv4 address such as 127.0.0.1", text));
-  return *host;
-}
-
-/// Opens a socket on a port. Throws InputError with the key and the first port of all instances if it is in use.
-template <class Socket>
-Socket opened(const char* key, uint32_t host, int64_t port, int64_t first_port) {
-  try {
-    return Socket(Address{host, static_cast<uint16_t>(port)});
-  } catch (const std::system_error& error) {
-    if (error.code().value() == EADDRINUSE) {
-      throw InputError(fmt::format("link.{}: {} is in use (instance N uses {} + N)", key, port, first_port));
-    }
-    throw InputError(fmt::format("link.{}: {} cannot be opened: {}", key, port, error.code().message()));
-  }
-}
-
-}  // namespace
 
 HilSockets::HilSockets(const Px4LinkConfig& config, const std::string& bind)
     : config_(config),
-      host_(bind_host(bind)),
-      server_(opened<StreamServer>("port", host_, config.tcp_port(), config.port)),
-      datagrams_(opened<DatagramSocket>("offboard_port", host_, config.own_udp_port(), config.offboard_port)) {}
-
-double HilSockets::now_s() const { return std::chrono::duration<double>(HilClock::now().time_since_epoch()).count(); }
+      host_(required_host(bind, "--bind")),
+      server_(opened<StreamServer>({"port", config.tcp_port(), config.port, "N"}, host_)),
+      datagrams_(opened<DatagramSocket>({"offboard_port", config.own_udp_port(), config.offboard_port, "N"}, host_)) {}
 
 /// Waits until something happens on the stream. @return false at the deadline or at the end of the autopilot's process.
 bool HilSockets::wait(double deadline_s) {
@@ -76,8 +43,8 @@ std::optional<HilSource::Chunk> HilSockets::stream(int64_t /*step*/, double dead
   if (ended_) return std::nullopt;
   do {
     bytes_.clear();
-    server_.receive(bytes_);
-    ended_ = bytes_.empty() && !server_.connected();
+    server_.connection().receive(bytes_);
+    ended_ = bytes_.empty() && !server_.connection().connected();
     if (ended_ || !bytes_.empty()) return Chunk{false, bytes_};
   } while (wait(deadline_s));
   return std::nullopt;

@@ -11,7 +11,6 @@
 #include "sim/link/child_process.h"
 #include "sim/link/recording.h"
 #include "sim/link/sockets.h"
-#include "sim/link/stream_server.h"
 #include "sim/scenario/px4_link_config.h"
 
 namespace hedgehop::sim::link {
@@ -56,9 +55,9 @@ class HilSockets : public HilSource {
   bool connect(double deadline_s) override;
   std::optional<Chunk> message(int64_t step) override;
   std::optional<Chunk> stream(int64_t step, double deadline_s) override;
-  bool send(std::span<const uint8_t> bytes) override { return server_.send(bytes); }
+  bool send(std::span<const uint8_t> bytes) override { return server_.connection().send(bytes); }
   void send_message(std::span<const uint8_t> bytes) override;
-  double now_s() const override;
+  double now_s() const override { return wall_s(); }
   double waited_s() const override { return waited_s_; }
   int64_t strangers() const override { return strangers_; }
   std::string peer() const override { return has_peer_ ? host_text(server_.peer().host) : ""; }

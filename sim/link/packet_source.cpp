@@ -4,49 +4,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <system_error>
-
-#include "sim/config/input_error.h"
 
 namespace hedgehop::sim::link {
 namespace {
 
-using LinkClock = std::chrono::steady_clock;
-
 constexpr double kConnectEachS = 0.1;  // an autopilot opens its serial line a moment after its start
-
-uint32_t host_of(const std::string& text, const char* what) {
-  const std::optional<uint32_t> host = parse_host(text);
-  if (!host) throw InputError(fmt::format("{}: '{}' is no numeric IPv4 address such as 127.0.0.1", what, text));
-  return *host;
-}
-
-DatagramSocket bound(const ArduPilotLinkConfig& config, const std::string& bind) {
-  const Address local{host_of(bind, "--bind"), static_cast<uint16_t>(config.udp_port())};
-  try {
-    return DatagramSocket(local);
-  } catch (const std::system_error& error) {
-    if (error.code().value() == EADDRINUSE) {
-      throw InputError(
-          fmt::format("link.port: {} is in use (instance N uses {} + 10 N)", config.udp_port(), config.port));
-    }
-    throw InputError(
-        fmt::format("link.port: {} of {} cannot be opened: {}", config.udp_port(), bind, error.code().message()));
-  }
-}
 
 }  // namespace
 
+std::optional<std::string> PacketSource::end_by_repeats(uint32_t count) {
+  return fmt::format("it refuses our state (frame {})", count);
+}
+
 SocketSource::SocketSource(const ArduPilotLinkConfig& config, const std::string& bind)
     : config_(config),
-      datagrams_(bound(config, bind)),
+      datagrams_(
+          opened<DatagramSocket>({"port", config.udp_port(), config.port, "10 N"}, required_host(bind, "--bind"))),
       has_serial_(config.tcp_port() != 0),
-      serial_({host_of(config.host, "link.host"), static_cast<uint16_t>(config.tcp_port())}) {}
-
-double SocketSource::now_s() const {
-  return std::chrono::duration<double>(LinkClock::now().time_since_epoch()).count();
-}
+      serial_({required_host(config.host, "link.host"), static_cast<uint16_t>(config.tcp_port())}) {}
 
 std::optional<PacketSource::Packet> SocketSource::arrived(int64_t /*step*/) {
   while (const auto datagram = datagrams_.receive()) {
@@ -55,9 +30,9 @@ std::optional<PacketSource::Packet> SocketSource::arrived(int64_t /*step*/) {
     ++strangers_;
     return std::nullopt;  // to the caller's deadline
   }
-  if (!serial_.connected()) return std::nullopt;
+  if (!serial_.connection().connected()) return std::nullopt;
   serial_bytes_.clear();
-  serial_.receive(serial_bytes_);
+  serial_.connection().receive(serial_bytes_);
   if (serial_bytes_.empty()) return std::nullopt;
   return Packet{true, serial_bytes_};
 }
@@ -67,13 +42,14 @@ std::variant<PacketSource::Packet, PacketSource::Absence> SocketSource::next(int
   for (;;) {
     const double now = now_s();
     if (now >= deadline_s) return absence();
-    const bool connecting = has_serial_ && !serial_.connected();
+    const bool connecting = has_serial_ && !serial_.connection().connected();
     if (connecting && now - tried_s_ >= kConnectEachS) {
       tried_s_ = now;
       serial_.connect();
     }
-    wait_readable(std::array{datagrams_.descriptor(), serial_.descriptor(), process_ ? process_->descriptor() : -1},
-                  connecting ? std::min(kConnectEachS, deadline_s - now) : deadline_s - now);
+    wait_readable(
+        std::array{datagrams_.descriptor(), serial_.connection().descriptor(), process_ ? process_->descriptor() : -1},
+        connecting ? std::min(kConnectEachS, deadline_s - now) : deadline_s - now);
     waited_s_ += now_s() - now;
     if (const std::optional<Packet> packet = arrived(step)) return *packet;
     if (process_ && process_->ended()) return absence();
@@ -97,6 +73,11 @@ std::optional<PacketSource::Packet> ReplaySource::arrived(int64_t step) {
   current_ = *packet;
   reader_.take();
   return Packet{true, current_.bytes};
+}
+
+std::optional<std::string> ReplaySource::end_by_repeats(uint32_t count) {
+  if (reader_.peek()) return std::nullopt;
+  return fmt::format("the recording ends with repeats of packet {}: refused or unanswered", count);
 }
 
 std::variant<PacketSource::Packet, PacketSource::Absence> ReplaySource::next(int64_t /*step*/, double /*deadline_s*/) {

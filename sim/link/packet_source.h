@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -36,8 +35,8 @@ class PacketSource {
   virtual std::variant<Packet, Absence> next(int64_t step, double deadline_s) = 0;
   /// Returns a packet that has arrived; nullopt without one. @param step  on which serial bytes act.
   virtual std::optional<Packet> arrived(int64_t step) = 0;
-  /// Whether a packet is known to follow: a refusal, which ends a flight, is the last packet of its recording.
-  virtual bool has_more() { return false; }
+  /// Returns why repeats of a packet at once after its answer end the link; nullopt if they do not.
+  virtual std::optional<std::string> end_by_repeats(uint32_t count);
   virtual void answer(std::string_view text) = 0;
   /// Returns false if the autopilot does not read its serial line.
   virtual bool send_serial(std::span<const uint8_t> bytes) = 0;
@@ -61,8 +60,8 @@ class SocketSource : public PacketSource {
   std::variant<Packet, Absence> next(int64_t step, double deadline_s) override;
   std::optional<Packet> arrived(int64_t step) override;
   void answer(std::string_view text) override { datagrams_.send(*peer_, text); }
-  bool send_serial(std::span<const uint8_t> bytes) override { return !has_serial_ || serial_.send(bytes); }
-  double now_s() const override;
+  bool send_serial(std::span<const uint8_t> bytes) override { return !has_serial_ || serial_.connection().send(bytes); }
+  double now_s() const override { return wall_s(); }
   int64_t strangers() const override { return strangers_; }
   std::string peer() const override { return peer_ ? host_text(peer_->host) : ""; }
   double waited_s() const override { return waited_s_; }
@@ -82,14 +81,15 @@ class SocketSource : public PacketSource {
   double waited_s_ = 0.0;
 };
 
-/// Packets from a recording. Answers have no effect.
+/// Packets from a recording. Answers have no effect. A recording has no wall times: each of its repeats seems to come
+/// at once, and the last ones may be a refusal or the beginning of a silence.
 class ReplaySource : public PacketSource {
  public:
   explicit ReplaySource(const std::filesystem::path& file) : reader_(file) {}
 
   std::variant<Packet, Absence> next(int64_t step, double deadline_s) override;
   std::optional<Packet> arrived(int64_t step) override;
-  bool has_more() override { return reader_.peek() != nullptr; }
+  std::optional<std::string> end_by_repeats(uint32_t count) override;
   void answer(std::string_view) override {}
   bool send_serial(std::span<const uint8_t>) override { return true; }
   double now_s() const override { return 0.0; }

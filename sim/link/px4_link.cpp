@@ -15,18 +15,11 @@ namespace {
 constexpr mavlink::Sender kSimulator{1, 200};
 constexpr double kImuPeriodS = 1.0 / static_cast<double>(HilSensors::kImuRateHz);
 
-LinkEnd px4_lost(std::string words) { return {Outcome::link_lost, "link: " + std::move(words)}; }
-
-const Px4LinkConfig& px4_config(const Scenario& scenario) {
-  if (!scenario.link) throw std::logic_error("the scenario has no link");
-  return std::get<Px4LinkConfig>(*scenario.link);
-}
-
 }  // namespace
 
 Px4Link::Px4Link(const Scenario& scenario, std::unique_ptr<HilSource> source, std::unique_ptr<MessageChannel> channel,
                  std::filesystem::path recording)
-    : config_(px4_config(scenario)),
+    : config_(std::get<Px4LinkConfig>(scenario.link.value())),
       source_(std::move(source)),
       channel_(std::move(channel)),
       recording_file_(std::move(recording)),
@@ -96,13 +89,13 @@ std::optional<LinkEnd> Px4Link::exchange_messages(const OutsideInput& input) {
 std::optional<LinkEnd> Px4Link::send_state(const OutsideInput& input) {
   const bool is_finite = input.body.p_WB.allFinite() && input.body.q_WB.coeffs().allFinite() &&
                          input.body.v_WB_B.allFinite() && input.specific_force_B.allFinite();
-  if (!is_finite) return px4_lost(fmt::format("the state is not finite at tick {}", input.step));
+  if (!is_finite) return link_lost(fmt::format("the state is not finite at tick {}", input.step));
   state_out_.clear();
   writer_.append(sensors_.sensor(input), state_out_);
   writer_.append(sensors_.state(input), state_out_);
   if (const std::optional<mavlink::HilGps> fix = sensors_.gps(input.step)) writer_.append(*fix, state_out_);
   if (source_->send(state_out_)) return std::nullopt;
-  return px4_lost(fmt::format("the autopilot does not read its stream at tick {}", input.step));
+  return link_lost(fmt::format("the autopilot does not read its stream at tick {}", input.step));
 }
 
 /// Waits for controls that are as new as the state: at the pace of the wall before the first ones, then for a limited
@@ -116,7 +109,7 @@ std::optional<LinkEnd> Px4Link::wait_for_controls(const OutsideInput& input) {
     const std::optional<HilSource::Chunk> chunk = source_->stream(input.step, deadline_s);
     if (chunk && !take_stream(*chunk, input.step)) {
       if (!in_lockstep_) throw InputError("link: the autopilot closed its connection before its first controls");
-      return px4_lost(fmt::format("the autopilot closed its connection at tick {}", input.step));
+      return link_lost(fmt::format("the autopilot closed its connection at tick {}", input.step));
     }
     const bool is_late = !chunk || source_->now_s() >= deadline_s;
     if (!is_answered_ && is_late) return miss_answer(input.step);
@@ -135,7 +128,7 @@ std::optional<LinkEnd> Px4Link::miss_answer(int64_t step) {
   }
   ++figures_.unanswered;
   if (++unanswered_in_row_ < kMaxUnanswered) return std::nullopt;
-  return px4_lost(fmt::format("no controls for {} states up to tick {}", kMaxUnanswered, step));
+  return link_lost(fmt::format("no controls for {} states up to tick {}", kMaxUnanswered, step));
 }
 
 /// Reads bytes of the stream. @return false at its end.

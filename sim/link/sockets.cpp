@@ -1,6 +1,7 @@
 #include "sim/link/sockets.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -10,9 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
-#include <system_error>
 #include <utility>
+
+#include "sim/config/input_error.h"
 
 namespace hedgehop::sim::link {
 namespace {
@@ -26,6 +29,8 @@ sockaddr_in to_sockaddr(const Address& address) {
   name.sin_port = htons(address.port);
   return name;
 }
+
+Address from_sockaddr(const sockaddr_in& name) { return {ntohl(name.sin_addr.s_addr), ntohs(name.sin_port)}; }
 
 const sockaddr* general(const sockaddr_in& name) { return reinterpret_cast<const sockaddr*>(&name); }
 
@@ -53,6 +58,12 @@ std::optional<uint32_t> parse_host(const std::string& text) {
   return ntohl(address.s_addr);
 }
 
+uint32_t required_host(const std::string& text, const char* key) {
+  const std::optional<uint32_t> host = parse_host(text);
+  if (!host) throw InputError(fmt::format("{}: '{}' is no numeric IPv4 address such as 127.0.0.1", key, text));
+  return *host;
+}
+
 std::string host_text(uint32_t host) {
   std::array<char, INET_ADDRSTRLEN> text{};
   const in_addr address{.s_addr = htonl(host)};
@@ -73,8 +84,7 @@ std::optional<DatagramSocket::Datagram> DatagramSocket::receive() {
     const ssize_t got =
         ::recvfrom(socket_.number(), buffer_.data(), buffer_.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
     if (got >= 0) {
-      return Datagram{{ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)},
-                      std::span(buffer_).first(static_cast<size_t>(got))};
+      return Datagram{from_sockaddr(from), std::span(buffer_).first(static_cast<size_t>(got))};
     }
     if (errno != EINTR && errno != ECONNREFUSED) return std::nullopt;
   }
@@ -86,28 +96,16 @@ void DatagramSocket::send(const Address& to, std::string_view bytes) const {
   }
 }
 
-bool StreamClient::connect() {
-  if (connected_) return true;
-  // A connection on loopback succeeds or is refused at once; another host answers later, in a further call.
-  if (socket_.number() < 0) {
-    socket_ = Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (socket_.number() < 0) return false;
-    const int on = 1;
-    ::setsockopt(socket_.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  }
-  const sockaddr_in name = to_sockaddr(server_);
-  const int status = ::connect(socket_.number(), general(name), sizeof name);
-  if (status == 0 || errno == EISCONN || (errno == EINPROGRESS && is_writable(socket_.number()))) {
-    connected_ = true;
-  } else if (errno != EINPROGRESS && errno != EALREADY) {
-    socket_ = Descriptor();
-  }
-  return connected_;
+void StreamConnection::open(Descriptor socket) {
+  socket_ = std::move(socket);
+  const int on = 1;
+  ::setsockopt(socket_.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
-void StreamClient::receive(std::vector<uint8_t>& bytes) {
+void StreamConnection::receive(std::vector<uint8_t>& bytes) {
   std::array<uint8_t, 4096> buffer;
-  while (connected_) {
+  // One flooding peer must not keep this loop busy for ever.
+  for (int i = 0; i < 16 && connected(); ++i) {
     const ssize_t got = ::recv(socket_.number(), buffer.data(), buffer.size(), 0);
     if (got > 0) {
       bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + got);
@@ -115,21 +113,69 @@ void StreamClient::receive(std::vector<uint8_t>& bytes) {
     }
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
-    connected_ = false;
     socket_ = Descriptor();
     waiting_.clear();
   }
 }
 
-bool StreamClient::send(std::span<const uint8_t> bytes) {
+bool StreamConnection::send(std::span<const uint8_t> bytes) {
   waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
-  while (connected_ && !waiting_.empty()) {
+  while (connected() && !waiting_.empty()) {
     const ssize_t sent = ::send(socket_.number(), waiting_.data(), waiting_.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) break;
     waiting_.erase(waiting_.begin(), waiting_.begin() + sent);
   }
   return waiting_.size() <= kMaxWaitingBytes;
+}
+
+bool StreamClient::connect() {
+  if (connection_.connected()) return true;
+  // A connection on loopback succeeds or is refused at once; another host answers later, in a further call.
+  if (connecting_.number() < 0) {
+    connecting_ = Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (connecting_.number() < 0) return false;
+  }
+  const sockaddr_in name = to_sockaddr(server_);
+  const int status = ::connect(connecting_.number(), general(name), sizeof name);
+  if (status == 0 || errno == EISCONN || (errno == EINPROGRESS && is_writable(connecting_.number()))) {
+    connection_.open(std::move(connecting_));
+  } else if (errno != EINPROGRESS && errno != EALREADY) {
+    connecting_ = Descriptor();
+  }
+  return connection_.connected();
+}
+
+StreamServer::StreamServer(const Address& local)
+    : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+  if (listener_.number() < 0) fail("socket");
+  const int on = 1;
+  ::setsockopt(listener_.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);  // after an earlier flight at once
+  const sockaddr_in name = to_sockaddr(local);
+  if (::bind(listener_.number(), general(name), sizeof name) != 0) fail("bind");
+  if (::listen(listener_.number(), 1) != 0) fail("listen");
+}
+
+bool StreamServer::accept() {
+  if (connection_.connected()) return true;
+  sockaddr_in from{};
+  socklen_t size = sizeof from;
+  Descriptor client(
+      ::accept4(listener_.number(), reinterpret_cast<sockaddr*>(&from), &size, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (client.number() < 0) return false;
+  connection_.open(std::move(client));
+  peer_ = from_sockaddr(from);
+  listener_ = Descriptor();
+  return true;
+}
+
+void refuse_port(const LinkPort& port, uint32_t host, const std::error_code& error) {
+  if (error.value() == EADDRINUSE) {
+    throw InputError(fmt::format("link.{}: {} is in use (instance N uses {} + {})", port.key, port.number, port.first,
+                                 port.instance_steps));
+  }
+  throw InputError(
+      fmt::format("link.{}: {} of {} cannot be opened: {}", port.key, port.number, host_text(host), error.message()));
 }
 
 void wait_readable(std::span<const int> descriptors, double max_s) {
@@ -142,5 +188,7 @@ void wait_readable(std::span<const int> descriptors, double max_s) {
   constexpr double kMaxPollS = 1e6;  // within poll's int in ms
   ::poll(watched.data(), count, static_cast<int>(std::ceil(1e3 * std::clamp(max_s, 0.0, kMaxPollS))));
 }
+
+double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace hedgehop::sim::link

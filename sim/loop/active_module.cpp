@@ -92,7 +92,7 @@ class FailedModule : public avoidance::Module {
 /// Makes the module of a takeover. The errors of make_module() name the scenario's own module.
 std::unique_ptr<avoidance::Module> make_successor(const AvoidanceConfig& config, const std::filesystem::path& folder) {
   try {
-    return build_part("avoidance", [&] { return make_module(config, folder); });
+    return make_module(config, folder);
   } catch (const InputError& error) {
     std::vector<FieldError> errors = error.field_errors();
     if (errors.empty()) throw;

@@ -35,8 +35,8 @@ Episode::Episode(const Scenario& scenario, FlightEnvironment& environment, Fligh
   }
   const double heading_rad = pilot_.route().goal().heading_rad;
   pilot_.reset(environment_.hull, dynamics::control::PositionSetpoint{aircraft_.body().p_WB, heading_rad});
-  if (const std::string fault = signal_fault(pilot_.module().signals()); !fault.empty()) {
-    throw InputError("avoidance: " + fault);
+  if (std::string fault = signal_fault(pilot_.module().signals()); !fault.empty()) {
+    throw InputError(FieldError{"avoidance", std::move(fault)});
   }
   log_.set_signals(pilot_.module().signals());
   p_WB_start_ = aircraft_.body().p_WB;

@@ -32,7 +32,7 @@ void Episode::take_off() {
     proximity_ = environment_.collision.query(aircraft_.X_WB(), kMaxClearanceM, 0.0);
     if (const std::optional<Ending> reason = collision()) end(*reason);
   }
-  aircraft_.begin_linked_flight(environment_.collision);
+  if (!fault_of_state()) aircraft_.begin_linked_flight(environment_.collision);
   if (over()) return;
   flying_ = true;
   outside_->on_start(outside_step_);

@@ -45,6 +45,8 @@ struct LinkEnd {
   Outcome outcome = Outcome::link_lost;
   std::string cause;
 };
+/// Returns the end of a lost link. @param words  why, with the tick.
+inline LinkEnd link_lost(const std::string& words) { return {Outcome::link_lost, "link: " + words}; }
 
 /// An autopilot outside this process that flies the vehicle instead of dynamics::Avionics, in lockstep: one exchange
 /// per physics step. The flight is a function of the scenario and the commands.

@@ -19,7 +19,8 @@ void describe(Visitor& v, fields::ConfigOf<PerceptionConfig> auto& c) {
     {.meaning = "OBSTACLE_DISTANCE: 72 sectors from the depth or stereo images of the module"});
   v("distance_sensor", c.distance_sensor, {.meaning = "DISTANCE_SENSOR: height above ground"});
   v("optical_flow", c.optical_flow,
-    {.meaning = "OPTICAL_FLOW and OPTICAL_FLOW_RAD from the images of the module's camera that looks down"});
+    {.meaning = "OPTICAL_FLOW (ArduPilot) or OPTICAL_FLOW_RAD (PX4) from the images of the module's camera that looks "
+                "down"});
   v("vision_position", c.vision_position, {.meaning = "VISION_POSITION_ESTIMATE: estimated position and attitude"});
   v("odometry", c.odometry, {.meaning = "ODOMETRY: estimated position, attitude and velocities"});
   v("min", c.min_m, {.unit = "m", .at_least = 0.01, .at_most = 100.0, .meaning = "minimum range of a sector"});

@@ -25,10 +25,10 @@ constexpr std::array<KnownMessage, sizeof...(Messages)> known() {
   return {KnownMessage{Messages::kId, crc_extra<Messages>()}...};
 }
 
-constexpr auto kKnown = known<Heartbeat, Attitude, LocalPositionNed, RcChannelsOverride, CommandLong, CommandAck,
-                              SetPositionTargetLocalNed, EkfStatusReport, StatusText, ObstacleDistance, DistanceSensor,
-                              OpticalFlow, OpticalFlowRad, VisionPositionEstimate, Odometry, HilSensor, HilGps,
-                              HilStateQuaternion, HilActuatorControls, HilOpticalFlow>();
+constexpr auto kKnown =
+    known<Heartbeat, Attitude, LocalPositionNed, RcChannelsOverride, CommandLong, CommandAck, SetPositionTargetLocalNed,
+          EkfStatusReport, StatusText, ObstacleDistance, DistanceSensor, OpticalFlow, OpticalFlowRad,
+          VisionPositionEstimate, Odometry, HilSensor, HilGps, HilStateQuaternion, HilActuatorControls>();
 
 uint16_t frame_checksum(std::span<const uint8_t> after_magic, uint8_t extra) {
   Checksum sum;

@@ -154,38 +154,4 @@ constexpr void list_fields(Visitor& v, fields::ConfigOf<HilActuatorControls> aut
   v("mode", m.mode);
 }
 
-/// OPTICAL_FLOW_RAD for the simulator link.
-struct HilOpticalFlow {
-  static constexpr uint32_t kId = 114;
-  static constexpr std::string_view kName = "HIL_OPTICAL_FLOW";
-
-  uint64_t time_usec = 0;            ///< µs
-  uint32_t integration_time_us = 0;  ///< µs
-  float integrated_x = 0.0f;         ///< rad
-  float integrated_y = 0.0f;
-  float integrated_xgyro = 0.0f;  ///< rad
-  float integrated_ygyro = 0.0f;
-  float integrated_zgyro = 0.0f;
-  uint32_t time_delta_distance_us = 0;  ///< µs
-  float distance = 0.0f;                ///< m
-  int16_t temperature = 0;              ///< 0.01 deg C
-  uint8_t sensor_id = 0;
-  uint8_t quality = 0;  ///< 0 to 255
-};
-template <class Visitor>
-constexpr void list_fields(Visitor& v, fields::ConfigOf<HilOpticalFlow> auto& m) {
-  v("time_usec", m.time_usec);
-  v("integration_time_us", m.integration_time_us);
-  v("integrated_x", m.integrated_x);
-  v("integrated_y", m.integrated_y);
-  v("integrated_xgyro", m.integrated_xgyro);
-  v("integrated_ygyro", m.integrated_ygyro);
-  v("integrated_zgyro", m.integrated_zgyro);
-  v("time_delta_distance_us", m.time_delta_distance_us);
-  v("distance", m.distance);
-  v("temperature", m.temperature);
-  v("sensor_id", m.sensor_id);
-  v("quality", m.quality);
-}
-
 }  // namespace hedgehop::sim::mavlink

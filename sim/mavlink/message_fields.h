@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -23,6 +25,14 @@ namespace hedgehop::sim::mavlink {
 inline constexpr size_t kMaxPayload = 255;  ///< bytes
 
 static_assert(std::endian::native == std::endian::little, "payloads are copied as they lie in memory");
+
+/// Returns a value as a field of whole numbers: rounded, and limited to the range of the field. @param value  no NaN.
+template <class Whole>
+Whole rounded(double value) {
+  constexpr auto kLow = static_cast<double>(std::numeric_limits<Whole>::min());
+  constexpr auto kHigh = static_cast<double>(std::numeric_limits<Whole>::max());
+  return static_cast<Whole>(std::clamp(std::round(value), kLow, kHigh));
+}
 
 template <class T>
 struct IsArray : std::false_type {};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "avoidance/heading.h"
+#include "sim/mavlink/message_fields.h"
 
 namespace hedgehop::sim::mavlink {
 namespace {
@@ -20,13 +21,6 @@ constexpr double kFlowVectors = 64.0;  // of vision::flow::GroundVelocity
 
 uint64_t microseconds(int64_t t_ns) { return static_cast<uint64_t>(t_ns / 1000); }
 uint32_t milliseconds(int64_t t_ns) { return static_cast<uint32_t>(t_ns / 1'000'000); }
-
-template <class Whole>
-Whole rounded(double value) {
-  constexpr auto kLow = static_cast<double>(std::numeric_limits<Whole>::min());
-  constexpr auto kHigh = static_cast<double>(std::numeric_limits<Whole>::max());
-  return static_cast<Whole>(std::clamp(std::round(value), kLow, kHigh));
-}
 
 uint16_t centimeters(double value_m) { return rounded<uint16_t>(100.0 * value_m); }
 

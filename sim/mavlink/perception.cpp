@@ -55,7 +55,7 @@ class FlowSource {
     constexpr double kDown = 0.94;  // within 20 deg of the body's down axis
     for (const CameraNeed& need : needs.cameras) {
       if (need.channel != CameraNeed::Channel::grey) continue;
-      const avoidance::MountedCamera& camera = mounted_camera(setup, need.role);
+      const avoidance::MountedCamera& camera = avoidance::required_camera(setup, need.role);
       const bool looks_down = (camera.X_BC.linear() * Eigen::Vector3d::UnitZ()).z() > kDown;
       if (looks_down && camera.model.is_undistorted_pinhole()) return FlowSource(camera);
     }
@@ -63,8 +63,8 @@ class FlowSource {
   }
 
   void update(const avoidance::Observation& observation) {
-    const auto frame = std::ranges::find(observation.frames, role_, &avoidance::CameraFrame::role);
-    if (frame == observation.frames.end()) return;
+    const avoidance::CameraFrame* const frame = avoidance::find_frame(observation.frames, role_);
+    if (!frame) return;
     const avoidance::NavigationState& navigation = observation.navigation;
     const auto reading = ground_.measure(
         frame->image, {frame->t_ns, navigation.q_WB_est, navigation.q_WB_gyro, navigation.height_above_ground_m});

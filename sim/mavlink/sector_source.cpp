@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "vision/stereo/disparity.h"
 
@@ -31,11 +30,6 @@ MountedCamera reduced(MountedCamera camera, int factor) {
   return camera;
 }
 
-const avoidance::CameraFrame* frame_of(const avoidance::Observation& observation, const std::string& role) {
-  const auto frame = std::ranges::find(observation.frames, role, &avoidance::CameraFrame::role);
-  return frame == observation.frames.end() ? nullptr : &*frame;
-}
-
 bool is_parallel_pair(const MountedCamera& left, const MountedCamera& right) {
   constexpr double kParallelRad = 1e-6;  // the side cameras of other rigs are called left and right, too
   const Eigen::Isometry3d X_CCr = left.X_BC.inverse() * right.X_BC;
@@ -44,12 +38,6 @@ bool is_parallel_pair(const MountedCamera& left, const MountedCamera& right) {
 }
 
 }  // namespace
-
-const MountedCamera& mounted_camera(const avoidance::Setup& setup, const std::string& role) {
-  const auto camera = std::ranges::find(setup.cameras, role, &MountedCamera::role);
-  if (camera == setup.cameras.end()) throw std::invalid_argument("a camera '" + role + "' is needed");
-  return *camera;
-}
 
 SectorSource::SectorSource(const MountedCamera& depth, const SectorLimits& limits)
     : role_(depth.role), to_sectors_(depth.model, depth.X_BC, limits) {}
@@ -68,7 +56,7 @@ SectorSource::SectorSource(const std::string& pair, const MountedCamera& left, c
 void SectorSource::update(int64_t t_ns, const avoidance::Observation& observation) {
   constexpr int64_t kJitterNs = 1'000'000;
   if (seen_ns_ && t_ns - *seen_ns_ < kPeriodNs - kJitterNs) return;
-  const avoidance::CameraFrame* const frame = frame_of(observation, role_);
+  const avoidance::CameraFrame* const frame = find_frame(observation.frames, role_);
   if (!frame) return;
   const cv::Mat* const depth_m = stereo_ ? depth_of_pair(observation) : &frame->image;
   if (!depth_m) return;
@@ -85,7 +73,8 @@ const ObstacleSectors* SectorSource::sectors(int64_t t_ns) const {
 const cv::Mat* SectorSource::depth_of_pair(const avoidance::Observation& observation) {
   // As in avoidance/local_map: segments of fewer pixels are mismatches.
   constexpr int kSpeckDifference16 = 32, kSpeckPixels = 100;
-  const avoidance::CameraFrame *left = frame_of(observation, role_), *right = frame_of(observation, right_role_);
+  const avoidance::CameraFrame *left = find_frame(observation.frames, role_),
+                               *right = find_frame(observation.frames, right_role_);
   if (!left || !right) return nullptr;
   std::array frames = {*left, *right};
   for (avoidance::CameraFrame& frame : frames) {
@@ -109,12 +98,12 @@ std::vector<SectorSource> sector_sources(const PerceptionConfig& config, const a
     });
   };
   for (const CameraNeed& need : needs.cameras) {
-    if (need.channel == CameraNeed::Channel::depth) sources.emplace_back(mounted_camera(setup, need.role), limits);
+    if (need.channel == CameraNeed::Channel::depth) sources.emplace_back(required_camera(setup, need.role), limits);
     if (!has_grey(need.role) || !need.role.ends_with(left_end)) continue;
     const std::string prefix = need.role.substr(0, need.role.size() - left_end.size());
     const std::string right_role = prefix + right_end;
     if ((!prefix.empty() && !prefix.ends_with("_")) || !has_grey(right_role)) continue;
-    const MountedCamera &left = mounted_camera(setup, need.role), &right = mounted_camera(setup, right_role);
+    const MountedCamera &left = required_camera(setup, need.role), &right = required_camera(setup, right_role);
     if (!is_parallel_pair(left, right)) continue;
     sources.emplace_back(prefix.substr(0, prefix.empty() ? 0 : prefix.size() - 1), left, right, config.stereo, limits);
   }

@@ -12,9 +12,6 @@
 
 namespace hedgehop::sim::mavlink {
 
-/// Returns a camera of the rig. Throws std::invalid_argument if it is missing.
-const avoidance::MountedCamera& mounted_camera(const avoidance::Setup& setup, const std::string& role);
-
 /// Sectors from one depth camera or one stereo pair. Stereo images are reduced to a width of about kStereoWidthPx: a
 /// sector is 5 deg wide, and the module matches the full images once more.
 class SectorSource {

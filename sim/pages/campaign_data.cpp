@@ -15,7 +15,6 @@
 #include "sim/config/config_outline.h"
 #include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
-#include "sim/evidence/anytime_valid.h"
 #include "sim/evidence/batch_record.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/result_io.h"
@@ -80,10 +79,6 @@ std::string unit_of(const std::string& name, const std::vector<FlightNotes>& not
   return name.ends_with("_s") ? "s" : unit_of_parameter(name);
 }
 
-Interval success_interval(const Count& success, bool anytime) {
-  return anytime ? anytime_interval(success, kTableConfidence) : wilson_interval(success, kTableConfidence);
-}
-
 Json group_row(const GroupSummary& group, bool anytime) {
   const Interval interval = success_interval(group.success, anytime);
   return {{"group", group.group},
@@ -101,12 +96,6 @@ Json group_row(const GroupSummary& group, bool anytime) {
           {"min_clearance_m", json_number(group.min_clearance_m)},
           {"median_clearance_m", json_number(group.median_clearance_m)},
           {"median_time_s", json_number(group.median_time_s)}};
-}
-
-GroupSummary all_of(std::vector<FlightRecord> records, const std::set<std::string>& controls = {}) {
-  std::erase_if(records, [&](const FlightRecord& record) { return controls.contains(record.order.group); });
-  for (FlightRecord& record : records) record.order.group = "all flights";
-  return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
 }
 
 /// Returns the name of the failed check with the earliest time; checks of the whole flight are last. A collision counts
@@ -177,6 +166,12 @@ Json change_row(const GroupSummary& now, const GroupSummary& before, StoppedByRu
 
 }  // namespace
 
+GroupSummary all_flights(std::vector<FlightRecord> records, const std::set<std::string>& without) {
+  std::erase_if(records, [&](const FlightRecord& record) { return without.contains(record.order.group); });
+  for (FlightRecord& record : records) record.order.group = "all flights";
+  return records.empty() ? GroupSummary{.group = "all flights"} : summarize(records).front();
+}
+
 std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records) {
   std::vector<FlightNotes> notes(records.size());
   for (size_t i = 0; i < records.size(); ++i) {
@@ -232,8 +227,11 @@ Json strips_data(const std::filesystem::path& folder, const std::vector<FlightRe
     const std::filesystem::path file = folder / records[row].order.id / "strip.jpg";
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
-    if (!error && bytes + size > kMaxStripBytes) ++omitted;
-    if (error || bytes + size > kMaxStripBytes) continue;
+    if (error) continue;
+    if (bytes + size > kMaxStripBytes) {
+      ++omitted;
+      continue;
+    }
     bytes += size;
     images.push_back({row, base64(read_file_whole(file))});
   }
@@ -249,7 +247,7 @@ std::vector<std::string> swept_columns(const FlightList& flights) {
 
 Json groups_data(const std::vector<FlightRecord>& records, bool anytime, const std::set<std::string>& controls) {
   const std::vector<GroupSummary> groups = summarize(records);
-  Json rows = Json::array({group_row(all_of(records, controls), anytime)});
+  Json rows = Json::array({group_row(all_flights(records, controls), anytime)});
   if (groups.size() > 1) {
     for (const GroupSummary& group : groups) rows.push_back(group_row(group, anytime));
   }
@@ -273,9 +271,8 @@ Json against_data(const FlightList& now, const FlightList& before, StoppedByRule
       continue;
     }
     const FlightRecord& old = before.records[*pair];
-    // As in web/src/filter.js: a timeout without a goal is the normal end of a flight.
-    const bool completed = outcome_words(old) == to_string(Outcome::timeout) && std::isnan(goal_distances_m[*pair]);
-    Json row{{"outcome", completed ? "completed" : outcome_words(old)},
+    const bool has_goal = !std::isnan(goal_distances_m[*pair]);
+    Json row{{"outcome", old.result ? shown_outcome(old.result->flight.outcome, has_goal) : outcome_words(old)},
              {"passed", verdict_of(old) == Verdict::passed},
              {"command", commands[*pair]}};
     row["clearance_m"] = old.result ? json_number(old.result->flight.closest_obstacle.distance_m) : Json(nullptr);
@@ -286,7 +283,7 @@ Json against_data(const FlightList& now, const FlightList& before, StoppedByRule
     if (std::ranges::find(pairs, std::optional(i)) == pairs.end()) json["gone"].push_back(before.records[i].order.id);
   }
 
-  json["groups"].push_back(change_row(all_of(now.records), all_of(before.records), stopped));
+  json["groups"].push_back(change_row(all_flights(now.records), all_flights(before.records), stopped));
   const std::vector<GroupSummary> earlier = summarize(before.records), groups = summarize(now.records);
   for (const GroupSummary& group : groups) {
     const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);

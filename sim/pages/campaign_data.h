@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/batch/flight_table.h"
+#include "sim/batch/group_verdict.h"
 
 namespace hedgehop::sim {
 
@@ -32,6 +33,9 @@ nlohmann::ordered_json strips_data(const std::filesystem::path& folder, const st
 
 /// Returns the names of the columns that a sweep varied: those between the number of the point and the status.
 std::vector<std::string> swept_columns(const FlightList& flights);
+
+/// Returns the flights as one group, "all flights". @param without  groups that do not count: those of a control.
+GroupSummary all_flights(std::vector<FlightRecord> records, const std::set<std::string>& without = {});
 
 /// Returns one row for all flights, then one row with a 95 % interval per group of flights that differ in the seed
 /// only. The row for all flights excludes the groups of a leaderboard's control.

@@ -7,11 +7,13 @@
 
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/group_verdict.h"
+#include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
-#include "sim/evidence/anytime_valid.h"
+#include "sim/evidence/batch_record.h"
 #include "sim/evidence/conduct.h"
 #include "sim/flight/build.h"
+#include "sim/flight/json_file.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/leaderboard_page.h"
@@ -22,13 +24,6 @@ namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Returns all flights, except those of some groups, as one group.
-GroupSummary total(std::vector<FlightRecord> records, const std::set<std::string>& without) {
-  std::erase_if(records, [&](const FlightRecord& record) { return without.contains(record.order.group); });
-  for (FlightRecord& record : records) record.order.group = "all";
-  return records.empty() ? GroupSummary{} : summarize(records).front();
-}
 
 /// Returns the upper bound of the rate of an event that did not occur in n flights.
 Json limit_without_event(int64_t n) {
@@ -75,12 +70,17 @@ bool has_stopping_rule(const Json& conduct) { return !conduct.is_null() && !cond
 /// Returns the result of a search for failures with the paths of the stored failures; null for any other campaign.
 Json search_data(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
-  Json search = Json::parse(read_file_whole(folder / "falsify.json"));
-  if (search.contains("seed")) search["seed"] = search["seed"].dump();  // a text is exact
+  const std::filesystem::path file = folder / "falsify.json";
+  Json search = read_json(file);
   std::vector<std::optional<FlownPath>> paths;
-  for (const Json& one : search.at("counterexamples")) {
-    paths.push_back(
-        read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMaxPointsOfPath));
+  try {
+    if (search.contains("seed")) search["seed"] = search["seed"].dump();  // a text is exact
+    for (const Json& one : search.at("counterexamples")) {
+      paths.push_back(
+          read_path(folder / one.at("folder").get<std::string>(), one.at("seed").get<uint64_t>(), kMaxPointsOfPath));
+    }
+  } catch (const Json::exception& error) {
+    throw InputError(json_fault(file, error, "the record of a search"));
   }
   search["paths"] = paths_data(flight_maps(paths), paths);
   return search;
@@ -88,20 +88,19 @@ Json search_data(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records,
+Json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& with_refused,
                  const std::set<std::string>& controls) {
-  const GroupSummary all = total(records, controls);
+  const std::vector<FlightRecord> records = without_refused(with_refused);
+  const GroupSummary all = all_flights(records, controls);
   const Json conduct = conduct_data(folder);
   const bool sequential = has_stopping_rule(conduct);
   const auto interval = [&](Count count) -> Json {
-    const Interval i =
-        sequential ? anytime_interval(count, kTableConfidence) : wilson_interval(count, kTableConfidence);
+    const Interval i = success_interval(count, sequential);
     return {i.low, i.high};
   };
   const int64_t of_controls = static_cast<int64_t>(records.size()) - all.flights;
   const int64_t planned = conduct.is_null() ? all.flights : conduct.at("planned").get<int64_t>() - of_controls;
-  const int64_t refused = std::ranges::count_if(records, [](const FlightRecord& r) { return is_refused(r.order); });
-  const int64_t discarded = conduct.is_null() ? 0 : planned - (all.flights - refused);
+  const int64_t discarded = sequential ? planned - all.flights : 0;
   const int64_t broken = all.fault + all.failed;
   Json data{{"counts",
              {{"planned", planned},

@@ -16,7 +16,8 @@ namespace hedgehop::sim {
 /// flights as failures and as passes; null if no flight is missing), `no_collision` (flights, 3/n and the exact
 /// one-sided bound; null if a flight collided or broke), and `conduct` of conduct_data() (null for a sweep). Source of
 /// the bounds without an event: [HanleyLippmanHand1983] p. 1743, the rule of three.
-/// @param folder  of the campaign. @param records  of its table. @param controls  groups that do not count.
+/// @param folder  of the campaign. @param records  of its table; those of refused orders do not count.
+/// @param controls  groups that do not count.
 nlohmann::ordered_json claims_data(const std::filesystem::path& folder, const std::vector<FlightRecord>& records,
                                    const std::set<std::string>& controls = {});
 

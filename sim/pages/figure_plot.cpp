@@ -6,14 +6,28 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <utility>
 
 namespace hedgehop::sim {
 namespace {
 
 constexpr double kTextSize = 7.0;
+constexpr double kMaxTickWidth = 70.0;  // "-1.00000000005e+17"
 constexpr std::array<std::array<double, 3>, 4> kRamp = {
     {{0xc8, 0x42, 0x0a}, {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x0a, 0x5f, 0xa0}}};
+
+/// Returns different numbers with the same number of significant figures: `figures`, or more if words would be equal.
+std::vector<std::string> distinct_words(const std::vector<double>& values, int figures) {
+  const size_t different = std::set<double>(values.begin(), values.end()).size();
+  for (;; ++figures) {
+    std::vector<std::string> words;
+    for (const double value : values) words.push_back(fmt::format("{:.{}g}", value, figures));
+    const size_t distinct = std::set<std::string>(words.begin(), words.end()).size();
+    if (distinct == different || figures >= std::numeric_limits<double>::max_digits10) return words;
+  }
+}
 
 /// Returns round numbers in a range, about five and at most six.
 std::vector<FigureAxis::Tick> round_ticks(double low, double high) {
@@ -23,12 +37,14 @@ std::vector<FigureAxis::Tick> round_ticks(double low, double high) {
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (factor * power >= rough) step = factor * power;
   }
-  std::vector<FigureAxis::Tick> ticks;
+  std::vector<double> values;
   const double first = std::ceil(low / step), last = std::min(std::floor(high / step + 1e-9) - first, kMaxSteps);
   for (double k = 0.0; k <= last; ++k) {  // first + k may equal first: the count ends the loop
-    const double value = first + k == 0.0 ? 0.0 : (first + k) * step;
-    ticks.push_back({value, fmt::format("{:.6g}", value)});
+    values.push_back(first + k == 0.0 ? 0.0 : (first + k) * step);
   }
+  const std::vector<std::string> words = distinct_words(values, 6);
+  std::vector<FigureAxis::Tick> ticks;
+  for (size_t i = 0; i < values.size(); ++i) ticks.push_back({values[i], words[i]});
   return ticks;
 }
 
@@ -61,10 +77,14 @@ FigureAxis FigureAxis::of_logarithms(const std::string& label, std::vector<doubl
   FigureAxis axis = of_numbers(label, logarithms);
   axis.ticks.clear();
   const size_t parts = values.size() <= kMaxTicks ? values.size() - 1 : kQuarters;
+  std::vector<double> shown;
   for (size_t k = 0; k <= parts; ++k) {
     const size_t i = parts == 0 ? 0 : (k * (values.size() - 1) + parts / 2) / parts;
-    axis.ticks.push_back({logarithms[i], fmt::format("{:.3g}", values[i])});
+    shown.push_back(values[i]);
+    axis.ticks.push_back({logarithms[i], ""});
   }
+  const std::vector<std::string> words = distinct_words(shown, 3);
+  for (size_t k = 0; k < words.size(); ++k) axis.ticks[k].words = words[k];
   return axis;
 }
 
@@ -79,7 +99,7 @@ FigurePlot::FigurePlot(FigureCanvas& canvas, FigureCanvas::Point corner, double 
     : x_(std::move(x)), y_(std::move(y)) {
   double left = 0.0;
   for (const FigureAxis::Tick& tick : y_.ticks) {
-    left = std::max(left, std::min(60.0, FigureCanvas::text_width(tick.words, kTextSize)));
+    left = std::max(left, std::min(kMaxTickWidth, FigureCanvas::text_width(tick.words, kTextSize)));
   }
   left += 20.0;
   corner_ = {corner.x + left, corner.y + 14.0};
@@ -90,7 +110,7 @@ FigurePlot::FigurePlot(FigureCanvas& canvas, FigureCanvas::Point corner, double 
   double last_end = -INFINITY;
   for (const FigureAxis::Tick& tick : x_.ticks) {
     const double place = at(tick.value, y_.low).x;
-    const std::string words = shortened(tick.words, 60.0, kTextSize);
+    const std::string words = shortened(tick.words, kMaxTickWidth, kTextSize);
     const double half = 0.5 * FigureCanvas::text_width(words, kTextSize);
     canvas.line({{place, bottom}, {place, bottom + 2.5}}, frame);
     if (place - half < last_end + 3.0) continue;
@@ -100,7 +120,7 @@ FigurePlot::FigurePlot(FigureCanvas& canvas, FigureCanvas::Point corner, double 
   for (const FigureAxis::Tick& tick : y_.ticks) {
     const double place = at(x_.low, tick.value).y;
     canvas.line({{corner_.x - 2.5, place}, {corner_.x, place}}, frame);
-    canvas.text({corner_.x - 4.0, place + 2.5}, shortened(tick.words, 60.0, kTextSize), kTextSize,
+    canvas.text({corner_.x - 4.0, place + 2.5}, shortened(tick.words, kMaxTickWidth, kTextSize), kTextSize,
                 FigureCanvas::Anchor::right);
   }
   canvas.rectangle(corner_, width_, height_, frame);

@@ -15,6 +15,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/fields/order_statistics.h"
 #include "sim/flight/build.h"
+#include "sim/flight/json_file.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/words.h"
 
@@ -41,7 +42,8 @@ Json figures(const FlightList& flights, const std::set<std::string>& groups) {
   std::vector<FlightRecord> records;
   std::vector<size_t> rows;
   for (size_t i = 0; i < flights.records.size(); ++i) {
-    if (!groups.contains(flights.records[i].order.group)) continue;
+    const Order& order = flights.records[i].order;
+    if (is_refused(order) || !groups.contains(order.group)) continue;
     records.push_back(flights.records[i]);
     records.back().order.group.clear();  // one group for all
     rows.push_back(i);
@@ -167,10 +169,14 @@ std::string totals_text(const Json& data) {
       "|---|---|---|---|---|---|---|\n";
   for (const Json& total : data.at("totals")) {
     if (!total.contains("passed")) continue;
-    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} to {:.3f} | {} |\n", name_cell(total, "module"),
+    const std::string interval = total.at("flown") == 0
+                                     ? "-"
+                                     : fmt::format("{:.3f} to {:.3f}", total.at("collided_low").get<double>(),
+                                                   total.at("collided_high").get<double>());
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name_cell(total, "module"),
                         total.at("worlds").get<int64_t>(), total.at("flights").get<int64_t>(),
-                        total.at("passed").get<int64_t>(), collided_text(total), total.at("collided_low").get<double>(),
-                        total.at("collided_high").get<double>(), words(total.at("mean_speed_mps")));
+                        total.at("passed").get<int64_t>(), collided_text(total), interval,
+                        words(total.at("mean_speed_mps")));
   }
   return text;
 }
@@ -248,9 +254,10 @@ void forget_leaderboard(const std::filesystem::path& folder) {
 }
 
 Json leaderboard_data(const std::filesystem::path& folder, const FlightList& flights) {
-  if (!std::filesystem::exists(folder / kLeaderboardFile)) return nullptr;
+  const std::filesystem::path file = folder / kLeaderboardFile;
+  if (!std::filesystem::exists(file)) return nullptr;
+  const Json board = read_json(file);
   try {
-    const Json board = Json::parse(read_file_whole(folder / kLeaderboardFile));
     Json data{{"origin", origin_words(flights.records)},
               {"worlds", board.at("worlds")},
               {"modules", board.at("modules")},
@@ -272,7 +279,7 @@ Json leaderboard_data(const std::filesystem::path& folder, const FlightList& fli
     data["worlds"] = worlds;
     return data;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(fmt::format("{}: no leaderboard: {}", (folder / kLeaderboardFile).string(), error.what()));
+    throw InputError(json_fault(file, error, "the record of a leaderboard"));
   }
 }
 

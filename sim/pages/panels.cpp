@@ -8,13 +8,13 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/fields/quantities.h"
 #include "sim/record/flight_columns.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Values = std::vector<double>;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::string_view kTruthNote = "true: known to the simulator only";
 constexpr std::string_view kHeadingNote = "in the frame of the true heading; true: known to the simulator only";
 /// Upper end of the clearance plot if a clearance lies below it. Larger clearances are no danger.

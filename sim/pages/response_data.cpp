@@ -5,14 +5,14 @@
 #include <complex>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegPerRadian = 180.0 / std::numbers::pi;
 constexpr Eigen::Index kBodyStates = 9;  // velocity, rates, attitude
 
 Json response_panel(const std::string& section, const std::string& title, const std::string& unit, const char* axis_key,
@@ -42,7 +42,7 @@ Json scaled(const Eigen::Ref<const Eigen::VectorXd>& values, double scale) {
 std::vector<double> unwrapped_deg(const std::vector<std::complex<double>>& values) {
   std::vector<double> phases;
   for (const std::complex<double>& value : values) {
-    double phase = std::arg(value) * kDegPerRadian;
+    double phase = std::arg(value) * kDegPerRad;
     if (!phases.empty()) phase += 360.0 * std::round((phases.back() - phase) / 360.0);
     phases.push_back(phase);
   }
@@ -91,8 +91,8 @@ Bode bode(const dynamics::identification::FrequencyResponse& response, Eigen::In
 }  // namespace
 
 std::pair<std::string, double> readable_unit(const std::string& unit) {
-  if (unit == "rad") return {"deg", kDegPerRadian};
-  if (unit == "rad/s") return {"deg/s", kDegPerRadian};
+  if (unit == "rad") return {"deg", kDegPerRad};
+  if (unit == "rad/s") return {"deg/s", kDegPerRad};
   return {unit, 1.0};
 }
 

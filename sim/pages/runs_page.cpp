@@ -78,8 +78,7 @@ Json run_row(const fs::path& folder, const std::string& name) {
   row["seed"] = std::to_string(result.info.seed);  // exact, unlike a number of a page
   row["build"] = result.info.build;
   row["date"] = date_of(folder / "result.json");
-  const bool completed = flight.outcome == Outcome::timeout && !flight.goal_distance_m;  // its normal end
-  row["outcome"] = completed ? "completed" : std::string(to_string(flight.outcome));
+  row["outcome"] = shown_outcome(flight.outcome, flight.goal_distance_m.has_value());
   row["verdict"] = verdict_words(verdict_of(flight));
   row["flight_time_s"] = json_number(flight.flight_time_s);
   row["min_obstacle_clearance_m"] = json_number(flight.closest_obstacle.distance_m);

@@ -9,7 +9,8 @@
 #include <utility>
 
 #include "sim/batch/statistics.h"
-#include "sim/config/whole_file.h"
+#include "sim/config/input_error.h"
+#include "sim/flight/json_file.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/sweep/sensitivity.h"
 
@@ -154,7 +155,10 @@ bool varies(const std::vector<double>& means) {
 
 Json sweep_design(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "sweep.json";
-  return std::filesystem::exists(file) ? Json::parse(read_file_whole(file)) : Json::object();
+  if (!std::filesystem::exists(file)) return Json::object();
+  Json design = read_json(file);
+  if (!design.is_object()) throw InputError(file.string() + ": is not the record of a sweep; fly the sweep again");
+  return design;
 }
 
 std::set<std::string> more_is_better(const std::filesystem::path& folder, const FlightList& flights,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "sim/batch/folders.h"
 #include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/figure_canvas.h"
@@ -213,7 +214,7 @@ std::vector<std::string> write_sweep_figures(const std::filesystem::path& folder
   const Json data = sweep_data(folder, flights);
   if (data.is_null()) throw InputError(folder.string() + ": --figures is for sweeps");
   const SweepAnalysis analysis = analyze_sweep(folder, flights, column);
-  std::filesystem::create_directories(out);
+  create_folders(out);
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file_whole(out / name, text);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "sim/config/input_error.h"
+#include "sim/fields/shortened.h"
 #include "sim/plugin/message.h"
 
 namespace hedgehop::sim {
@@ -23,7 +24,7 @@ namespace {
 
 std::string text_of(const std::exception& error) {
   constexpr size_t kMaxBytes = 2000;
-  return one_line(std::string(error.what()).substr(0, kMaxBytes));
+  return one_line(shortened(error.what(), kMaxBytes));
 }
 
 class ModuleServer {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "sim/fields/shortened.h"
 #include "sim/flight/build.h"
 #include "sim/plugin/foreign_module.h"
 #include "sim/python/bindings.h"
@@ -19,11 +20,23 @@ using namespace py::literals;
 
 namespace {
 
+/// Returns the message of a Python exception; that of a syntax error begins with its file and line.
+std::string message_of(const py::error_already_set& error) {
+  const py::object value = error.value();
+  if (error.matches(PyExc_SyntaxError) && !value.attr("lineno").is_none()) {
+    return py::str("{}:{}: {}: {}")
+        .format(value.attr("filename"), value.attr("lineno"), error.type().attr("__name__"), value.attr("msg"));
+  }
+  const py::object lines = py::module_::import("traceback").attr("format_exception_only")(error.type(), value);
+  std::string text = py::str(py::str("").attr("join")(lines).attr("strip")());
+  constexpr std::string_view kRefusal = "hedgehop._loading.Refusal: ";  // its text is a whole message
+  return text.starts_with(kRefusal) ? text.substr(kRefusal.size()) : text;
+}
+
 /// Returns a Python exception in one line: the message, then the places, innermost last.
 std::string one_line(const py::error_already_set& error) {
   const py::object traceback = py::module_::import("traceback");
-  const py::object lines = traceback.attr("format_exception_only")(error.type(), error.value());
-  std::string text = py::str(py::str("").attr("join")(lines).attr("strip")());
+  std::string text = message_of(error);
   if (error.trace()) {
     for (const py::handle& frame : traceback.attr("extract_tb")(error.trace())) {
       const auto file = py::str(frame.attr("filename")).cast<std::string>();
@@ -73,13 +86,8 @@ auto locked(const Call& call) {
 
 [[noreturn]] void refuse(const py::handle& value, const std::string& name, const std::string& expected) {
   constexpr size_t kMaxBytes = 80;
-  std::string got = py::repr(value);
-  if (got.size() > kMaxBytes) {
-    size_t end = kMaxBytes;
-    while (end > 0 && (static_cast<unsigned char>(got[end]) & 0xC0u) == 0x80u) --end;  // between characters of UTF-8
-    got = got.substr(0, end) + "...";
-  }
-  throw std::invalid_argument("'" + name + "' must be " + expected + ", got " + got);
+  const std::string got = py::repr(value);
+  throw std::invalid_argument("'" + name + "' must be " + expected + ", got " + shortened(got, kMaxBytes));
 }
 
 /// Returns the value as a C++ type. Throws std::invalid_argument with the expected and the actual value.
@@ -110,7 +118,8 @@ class PythonModule : public avoidance::Module {
     return locked([&] {
       avoidance::Needs needs;
       const py::object given_needs = given("needs", py::list());
-      if (py::isinstance<py::str>(given_needs)) refuse(given_needs, "needs", kNeeds);
+      const bool is_text = py::isinstance<py::str>(given_needs);
+      if (is_text || !py::isinstance<py::iterable>(given_needs)) refuse(given_needs, "needs", kNeeds);
       for (const py::handle& need : given_needs) needs.cameras.push_back(to_need(need));
       for (const std::string& type :
            as<std::vector<std::string>>(given("commands", py::list()), "commands", kCommands)) {

@@ -1,6 +1,5 @@
 #include "sim/record/film.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,24 +12,11 @@
 #include <utility>
 
 #include "sim/config/pending_file.h"
+#include "sim/fields/own_library.h"
 #include "sim/fields/quantities.h"
 #include "sim/record/film_encoder.h"
 
 namespace hedgehop::sim {
-
-namespace {
-
-/// Returns the function of the encoder library, which remains loaded. It is found by the run path of this code.
-MakeFilmEncoder* film_library() {
-  void* const library = dlopen(kFilmLibrary, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw std::runtime_error(fmt::format("no encoder: {}", dlerror()));
-  auto* const make = reinterpret_cast<MakeFilmEncoder*>(dlsym(library, kMakeFilmEncoder));
-  if (make == nullptr)
-    throw std::runtime_error(fmt::format("the encoder belongs to another build of Hedgehop: {}", dlerror()));
-  return make;
-}
-
-}  // namespace
 
 class Film::Impl {
  public:
@@ -42,7 +28,8 @@ class Film::Impl {
     }
     guarded([&] {
       pending_.emplace(file_);
-      film_library()(pending_->path(), rate_hz, size_px_, encoder_);
+      auto* const make = own_library_function<MakeFilmEncoder>(kFilmLibrary, kMakeFilmEncoder, "no encoder: ");
+      make(pending_->path(), rate_hz, size_px_, encoder_);
     });
   }
 

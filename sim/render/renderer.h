@@ -47,8 +47,8 @@ struct CameraView {
 class Renderer {
  public:
   /// @param shadows  cast by static solids that are not flat, on all surfaces including moving obstacles.
-  /// Throws std::invalid_argument for an inconsistent scene (index out of range, textures of different sizes),
-  /// InputError with the reason if this machine lacks the renderer (no other replaces it).
+  /// Throws std::invalid_argument for an inconsistent scene (an index out of range), InputError with the reason if this
+  /// machine lacks the renderer (no other replaces it).
   explicit Renderer(const scenes::Scene& scene, Culling culling = Culling::frustum_and_horizon,
                     RendererKind kind = RendererKind::osmesa, Shadows shadows = Shadows::none);
   Renderer(Renderer&&) noexcept;
@@ -57,7 +57,8 @@ class Renderer {
 
   /// Renders a view. @param out  created if its size or type differs, otherwise overwritten; row 0 is the top row.
   /// Throws std::invalid_argument for a camera that vision::check() rejects, a pose or time that is not finite, or a
-  /// number of samples that require_samples() rejects.
+  /// number of samples that require_samples() rejects. Textures are painted at the first image in grey or color; if
+  /// their sizes differ, each such image throws std::invalid_argument.
   void draw(const CameraView& view, cv::Mat& out);
 
   /// Throws std::invalid_argument that lists the valid numbers if this number of samples per pixel is not possible.

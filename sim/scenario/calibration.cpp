@@ -12,11 +12,7 @@
 namespace hedgehop::sim {
 namespace {
 
-std::string list(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(yaml_1_1_number(number + 0.0));  // no -0
-  return fmt::format("[{}]", fmt::join(texts, ", "));
-}
+std::string list(const std::vector<double>& numbers) { return fmt::format("[{}]", yaml_1_1_list(numbers)); }
 
 template <class Matrix>
 std::vector<double> row_by_row(const Matrix& matrix) {
@@ -171,7 +167,7 @@ std::string opencv_calibration(std::span<const CameraConfig> cameras, const dyna
         lens.focal_x_px, 0, lens.center_u_px, 0, lens.focal_y_px, lens.center_v_px, 0, 0, 1};
     text += fmt::format("{}:\n   image_width: {}\n   image_height: {}\n   camera_model: {}\n", config.role,
                         camera.width_px, camera.height_px, model);
-    if (lens.model == Intrinsics::Model::unified) text += fmt::format("   xi: {}\n", lens.xi);
+    if (lens.model == Intrinsics::Model::unified) text += fmt::format("   xi: {}\n", yaml_1_1_number(lens.xi));
     text += opencv_matrix("camera_matrix", 3, matrix);
     text += opencv_matrix("distortion_coefficients", 1, lens.distortion);
     text += opencv_matrix("imu_from_camera", 4, row_by_row(X_FC(imu, config).matrix()));

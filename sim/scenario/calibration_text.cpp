@@ -35,8 +35,9 @@ Node parse_xml(const std::string& text, const std::string& file) {
   try {
     const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     return to_node(storage.root(), file);
-  } catch (const cv::Exception& error) {
-    throw InputError(fmt::format("{}: cannot be read as XML of OpenCV: {}", file, error.err));
+  } catch (const cv::Exception&) {  // its text names functions of OpenCV
+    throw InputError(
+        fmt::format("{}: is not complete XML, or is not a file of cv::FileStorage (<opencv_storage>)", file));
   }
 }
 

@@ -145,7 +145,11 @@ std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, 
       add("value", fmt::format("must be at least 0, got {}", *f.value));
     const SensorName* const sensor = sensor_of(f.what);
     const int axes = sensor && f.mode == Mode::bias ? sensor->axes : 1;
-    if (static_cast<int>(f.axis) >= axes) add("axis", fmt::format("{} {} has no such axis", f.what, word(f.mode)));
+    if (static_cast<int>(f.axis) >= axes) {
+      constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+      add("axis", fmt::format("'{}' is not an axis of {} {}; valid: {}", kAxes[static_cast<size_t>(f.axis)], f.what,
+                              word(f.mode), fmt::join(kAxes.begin(), kAxes.begin() + axes, ", ")));
+    }
     for (size_t j = 0; j < i; ++j) {
       if (failures[j].what == f.what && overlap(failures[j], f)) {
         add("at", fmt::format("{} fails already then, by failure {}", f.what, j));

@@ -80,10 +80,11 @@ class Parser {
 
   Value comparison() {
     if (tokens_.take("status")) return status();
+    const size_t column = tokens_.next().column;
     Value left = sum();
     for (const char* sign : {">=", ">", "<=", "<"}) {
       if (!tokens_.take(sign)) continue;
-      Expression low = expression_of(std::move(left)), high = expression_of(sum());
+      Expression low = expression_of(std::move(left), column), high = number(&Parser::sum);
       if (sign[0] == '>') std::swap(low, high);
       Formula formula;
       formula.margin = {.kind = Expression::Kind::subtract, .of = {std::move(high), std::move(low)}};
@@ -102,12 +103,13 @@ class Parser {
   }
 
   Value sum() {
+    const size_t column = tokens_.next().column;
     Value left = product();
     while (true) {
       if (tokens_.take("+")) {
-        left = computed(Expression::Kind::add, std::move(left), product());
+        left = computed(Expression::Kind::add, std::move(left), column, &Parser::product);
       } else if (tokens_.take("-")) {
-        left = computed(Expression::Kind::subtract, std::move(left), product());
+        left = computed(Expression::Kind::subtract, std::move(left), column, &Parser::product);
       } else {
         return left;
       }
@@ -115,12 +117,13 @@ class Parser {
   }
 
   Value product() {
+    const size_t column = tokens_.next().column;
     Value left = factor();
     while (true) {
       if (tokens_.take("*")) {
-        left = computed(Expression::Kind::multiply, std::move(left), factor());
+        left = computed(Expression::Kind::multiply, std::move(left), column, &Parser::factor);
       } else if (tokens_.take("/")) {
-        left = computed(Expression::Kind::divide, std::move(left), factor());
+        left = computed(Expression::Kind::divide, std::move(left), column, &Parser::factor);
       } else {
         return left;
       }
@@ -129,7 +132,7 @@ class Parser {
 
   Value factor() {
     const Depth depth(*this);
-    if (tokens_.take("-")) return Expression{.kind = Expression::Kind::negate, .of = {expression_of(factor())}};
+    if (tokens_.take("-")) return Expression{.kind = Expression::Kind::negate, .of = {number(&Parser::factor)}};
     if (tokens_.take("(")) {
       Value inner = implication();
       tokens_.expect(")");
@@ -143,7 +146,7 @@ class Parser {
       tokens_.expect("(");
       for (int i = 0; i < count; ++i) {
         if (i > 0) tokens_.expect(",");
-        call.of.push_back(expression_of(sum()));
+        call.of.push_back(number(&Parser::sum));
       }
       tokens_.expect(")");
       return call;
@@ -155,11 +158,13 @@ class Parser {
     const Token& token = tokens_.next();
     if (token.kind == Token::Kind::number) return {.number = tokens_.take().number};
     if (token.kind != Token::Kind::word) tokens_.refuse("expected a number or a signal");
-    if (token.text == "status") tokens_.refuse("'status' is no number; valid: status == WORD, status != WORD");
+    if (token.text == "status") {
+      Tokens::refuse_at(token.column, "'status' is no number; valid: status == WORD, status != WORD");
+    }
     std::vector<std::string_view> names{"status"};
     for (const FormulaSignal& signal : formula_signals()) names.push_back(signal.name);
     if (std::ranges::find(names, token.text) == names.end()) {
-      tokens_.refuse(fmt::format("no signal '{}'{}", token.text, suggestion(token.text, names)));
+      Tokens::refuse_at(token.column, fmt::format("no signal '{}'{}", token.text, suggestion(token.text, names)));
     }
     return {.kind = Expression::Kind::signal, .signal = std::string(tokens_.take().text)};
   }
@@ -170,9 +175,11 @@ class Parser {
     interval.from_s = seconds();
     tokens_.expect(",");
     if (!tokens_.take("end")) {
+      const size_t column = tokens_.next().column;
       interval.to_s = seconds();
       if (*interval.to_s < interval.from_s) {
-        tokens_.refuse(fmt::format("an interval from {} s ends before, at {} s", interval.from_s, *interval.to_s));
+        Tokens::refuse_at(column, fmt::format("the interval ends at {} s, before its start at {} s", *interval.to_s,
+                                              interval.from_s));
       }
     }
     tokens_.expect("]");
@@ -192,17 +199,19 @@ class Parser {
     return formula;
   }
 
-  Expression computed(Expression::Kind kind, Value left, Value right) {
+  /// @param column  of `left`.
+  Expression computed(Expression::Kind kind, Value left, size_t column, Value (Parser::*right)()) {
     count_operator();
     Expression expression{.kind = kind};
-    expression.of.push_back(expression_of(std::move(left)));
-    expression.of.push_back(expression_of(std::move(right)));
+    expression.of.push_back(expression_of(std::move(left), column));
+    expression.of.push_back(number(right));
     return expression;
   }
 
   void count_operator() {
     if (++operators_ > kMaxOperators) {
-      tokens_.refuse(fmt::format("more than {} operators; write several checks", kMaxOperators));
+      Tokens::refuse_at(tokens_.next().column,
+                        fmt::format("more than {} operators; write several checks", kMaxOperators));
     }
   }
 
@@ -210,15 +219,20 @@ class Parser {
     if (auto* formula = std::get_if<Formula>(&value)) return std::move(*formula);
     tokens_.refuse("expected a comparison, such as clearance >= 0.5");
   }
-  Expression expression_of(Value value) {
+  static Expression expression_of(Value value, size_t column) {
     if (auto* expression = std::get_if<Expression>(&value)) return std::move(*expression);
-    tokens_.refuse("expected a number, not something that holds or does not");
+    Tokens::refuse_at(column, "a comparison cannot be used as a number");
+  }
+  /// Parses a part that must be a number.
+  Expression number(Value (Parser::*part)()) {
+    const size_t column = tokens_.next().column;
+    return expression_of((this->*part)(), column);
   }
 
   /// Counts the levels, for a text may not exhaust the stack.
   struct Depth {
     explicit Depth(Parser& parser) : of(parser) {
-      if (++of.depth_ > kMaxDepth) of.tokens_.refuse("nested too deep");
+      if (++of.depth_ > kMaxDepth) Tokens::refuse_at(of.tokens_.next().column, "nested too deep");
     }
     ~Depth() { --of.depth_; }
     Depth(const Depth&) = delete;

@@ -45,9 +45,13 @@ void Tokens::expect(std::string_view text) {
 }
 
 void Tokens::refuse(const std::string& why) const {
-  const std::string got = next_.kind == Token::Kind::end ? "its end" : fmt::format("'{}'", next_.text);
-  const bool named = why.find(got) != std::string::npos;
-  throw std::invalid_argument(fmt::format("column {}: {}{}", next_.column, why, named ? "" : ", got " + got));
+  const bool is_end = next_.kind == Token::Kind::end;
+  refuse_at(next_.column,
+            fmt::format("{}, got {}", why, is_end ? "the end of the formula" : fmt::format("'{}'", next_.text)));
+}
+
+void Tokens::refuse_at(size_t column, const std::string& why) {
+  throw std::invalid_argument(fmt::format("column {}: {}", column, why));
 }
 
 void Tokens::advance() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,8 @@ class Tokens {
   void expect(std::string_view text);
   /// Throws std::invalid_argument "column 7: <why>, got 'x'" of the next token.
   [[noreturn]] void refuse(const std::string& why) const;
+  /// Throws std::invalid_argument "column 7: <why>".
+  [[noreturn]] static void refuse_at(size_t column, const std::string& why);
 
  private:
   void advance();

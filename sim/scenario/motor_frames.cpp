@@ -1,11 +1,13 @@
 #include "sim/scenario/motor_frames.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace hedgehop::sim {
 namespace {
@@ -59,6 +61,21 @@ bool matches(const ArmConfig& arm, const FrameMotor& motor) {
   return std::abs(apart_deg) <= kMaxAzimuthDeg && is_clockwise(arm) == motor.clockwise;
 }
 
+/// Returns the error of a class or a type that is not in the table. @param path  as match_motors()'s.
+FieldError unknown_frame(int64_t frame_class, int64_t frame_type, std::string_view path) {
+  std::set<int64_t> classes, types;
+  for (const Frame& frame : kFrames) {
+    classes.insert(frame.frame_class);
+    if (frame.frame_class == frame_class) types.insert(frame.frame_type);
+  }
+  if (types.empty()) {
+    return {fmt::format("{}.frame_class", path),
+            fmt::format("{} is unknown; valid: {}", frame_class, fmt::join(classes, ", "))};
+  }
+  return {fmt::format("{}.frame_type", path),
+          fmt::format("{} is not for frame_class {}; valid: {}", frame_type, frame_class, fmt::join(types, ", "))};
+}
+
 }  // namespace
 
 std::span<const FrameMotor> frame_motors(int64_t frame_class, int64_t frame_type) {
@@ -66,22 +83,12 @@ std::span<const FrameMotor> frame_motors(int64_t frame_class, int64_t frame_type
   return frame ? std::span(frame->motors).first(frame->count) : std::span<const FrameMotor>();
 }
 
-std::string frame_names() {
-  std::string names;
-  for (const Frame& frame : kFrames) {
-    names += fmt::format("{}{} {}", names.empty() ? "" : ", ", frame.frame_class, frame.frame_type);
-  }
-  return names;
-}
-
 MotorMatch match_motors(const dynamics::multicopter::MulticopterConfig& vehicle, int64_t frame_class,
                         int64_t frame_type, std::string_view path) {
   MotorMatch match;
   const std::span<const FrameMotor> motors = frame_motors(frame_class, frame_type);
   if (motors.empty()) {
-    match.errors.push_back(
-        {fmt::format("{}.frame_type", path),
-         fmt::format("FRAME_CLASS {}, TYPE {} is unknown; valid: {}", frame_class, frame_type, frame_names())});
+    match.errors.push_back(unknown_frame(frame_class, frame_type, path));
     return match;
   }
   if (vehicle.arms.size() != motors.size()) {

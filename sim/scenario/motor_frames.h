@@ -22,9 +22,6 @@ struct FrameMotor {
 /// Returns the motors of a frame in the order of its servo outputs; empty for a frame that is not in the table.
 std::span<const FrameMotor> frame_motors(int64_t frame_class, int64_t frame_type);
 
-/// Returns "FRAME_CLASS 1, TYPE 0; FRAME_CLASS 1, TYPE 1; ...".
-std::string frame_names();
-
 /// The match of a vehicle's arms with a frame's motors.
 struct MotorMatch {
   std::vector<size_t> arm_of_motor;  ///< index of the arm of each servo output; empty with errors

@@ -1,90 +1,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "sim/config/include.h"
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
 #include "sim/fields/invalid_field.h"
-#include "sim/scenario/calibration.h"
 #include "sim/scenario/calibration_file.h"
 #include "sim/scenario/calibration_text.h"
+#include "sim/scenario/camera_pose.h"
 #include "sim/scenario/rig.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using fields::require;
-
-/// Returns the rotation nearest to a matrix that is one within the digits of a file; unchanged if it is exact.
-Eigen::Matrix3d rotation(const Eigen::Matrix3d& R, std::string_view key) {
-  constexpr double kRounded = 1e-12, kMaxError = 1e-3;
-  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
-  require(error <= kMaxError && R.determinant() > 0.0, key, "its first three columns and rows are no rotation");
-  return error <= kRounded ? R : Eigen::Quaterniond(R).normalized().toRotationMatrix();
-}
-
-/// Returns the pose of a 4 x 4 matrix, row by row.
-Eigen::Isometry3d pose(const std::vector<double>& numbers, std::string_view key) {
-  require(numbers.size() == 16, key, fmt::format("must have 16 numbers, got {}", numbers.size()));
-  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  require(matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1), key, "its last row must be 0 0 0 1");
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = rotation(matrix.topLeftCorner<3, 3>(), key);
-  X.translation() = matrix.topRightCorner<3, 1>();
-  return X;
-}
-
-void clear_matrices(CameraConfig& c) {
-  for (std::vector<double>* matrix : {&c.body_from_camera, &c.imu_from_camera, &c.camera_from_imu}) matrix->clear();
-}
-
-std::vector<double> row_by_row(const Eigen::Isometry3d& X) {
-  std::vector<double> numbers;
-  for (const auto& row : X.matrix().rowwise()) numbers.insert(numbers.end(), row.begin(), row.end());
-  return numbers;
-}
-
-bool has_matrix(const CameraConfig& c) {
-  return !c.body_from_camera.empty() || !c.imu_from_camera.empty() || !c.camera_from_imu.empty() ||
-         !c.camera_from_previous.empty();
-}
-
-/// Return the first key of the position or of the angles that is not 0, or "".
-std::string_view position_key(const CameraConfig& c) {
-  return c.forward_m != 0.0 ? "forward" : c.right_m != 0.0 ? "right" : c.down_m != 0.0 ? "down" : "";
-}
-std::string_view angle_key(const CameraConfig& c) {
-  return c.yaw_rad != 0.0 ? "yaw" : c.pitch_rad != 0.0 ? "pitch" : c.roll_rad != 0.0 ? "roll" : "";
-}
-
-/// Whether position or angles are set.
-bool has_mounting(const CameraConfig& c) {
-  return !position_key(c).empty() || !angle_key(c).empty() || !c.quaternion.empty();
-}
-
-/// Refuses a pose that is stated twice.
-void require_one_pose(const CameraConfig& c) {
-  std::string_view first;
-  const auto state = [&](std::string_view key, bool is_stated) {
-    if (!is_stated) return;
-    require(first.empty(), key,
-            fmt::format("'{}' states the pose already; valid: one matrix, or a position with a quaternion or with yaw, "
-                        "pitch and roll",
-                        first));
-    first = key;
-  };
-  state("body_from_camera", !c.body_from_camera.empty());
-  state("imu_from_camera", !c.imu_from_camera.empty());
-  state("camera_from_imu", !c.camera_from_imu.empty());
-  if (!first.empty()) state(position_key(c), !position_key(c).empty());
-  state("quaternion", !c.quaternion.empty());
-  state(angle_key(c), !angle_key(c).empty());
-}
 
 /// Whether a camera states its size. The default counts if the optical axis of the calibration is near its middle.
 bool states_size(const CameraConfig& camera, const CameraConfig& calibrated) {
@@ -133,7 +66,9 @@ std::vector<CalibratedCamera> read_calibration(const std::string& text, const st
   try {
     return parse_calibration(text, file.string());
   } catch (const InputError& error) {
-    throw fields::InvalidField("calibration", error.what());
+    std::vector<FieldError> errors;
+    for (const std::string& line : error.errors()) errors.push_back({"calibration", line});
+    throw InputError(std::move(errors));
   }
 }
 
@@ -186,9 +121,37 @@ void apply_own_calibration(CameraConfig& camera, bool is_pair, std::vector<std::
   camera.calibration_camera.clear();
 }
 
+/// Calls an action and adds the path of its config to its errors.
+template <class Action>
+void below(const std::string& path, const Action& action) {
+  try {
+    action();
+  } catch (const fields::InvalidField& error) {
+    throw fields::InvalidField(join_path(path, error.key()), error.message());
+  } catch (const InputError& error) {
+    std::vector<FieldError> errors = error.field_errors();
+    for (FieldError& field : errors) field.path = join_path(path, field.path);
+    throw InputError(std::move(errors));
+  }
+}
+
 /// Applies the rig's file; a pose that refers to the camera before becomes one in B. @param p_BI_m  as mount_rig()'s.
 void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
   if (rig.calibration.empty()) return;
+  const size_t listed = rig.cameras.size();  // cameras whose keys the rig has; the others are of the file alone
+  // Calls an action on a camera. The place of its errors is the camera's key, or `calibration` if the file states it.
+  const auto with = [&](size_t i, bool is_of_rig, const auto& action) {
+    try {
+      action();
+    } catch (const fields::InvalidField& error) {
+      const bool is_of_file = error.key() == "calibration";
+      if (is_of_rig && !is_of_file) {
+        throw fields::InvalidField(fmt::format("cameras.{}.{}", i, error.key()), error.message());
+      }
+      throw fields::InvalidField("calibration", fmt::format("camera '{}': {}", rig.cameras[i].role,
+                                                            is_of_file ? error.message() : error.what()));
+    }
+  };
   std::optional<size_t> before;  // the camera of the entry before
   for (const CalibratedCamera& entry : read_calibration(text_of(rig.calibration), rig.calibration)) {
     const auto is_this = [&](const CameraConfig& c) {
@@ -199,63 +162,31 @@ void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
       camera = rig.cameras.insert(camera, CameraConfig{.role = entry.role.empty() ? "camera" : entry.role});
       if (entry.rate_hz) camera->rate_hz = *entry.rate_hz;
     }
-    apply(entry.config, *camera);
+    const auto i = static_cast<size_t>(camera - rig.cameras.begin());
+    const bool states_pose = i < listed && (has_mounting(*camera) || has_matrix(*camera));
+    with(i, i < listed, [&] { apply(entry.config, *camera); });
     camera->p_BI_m = p_BI_m;
     const std::vector<double> X_CCp = std::exchange(camera->camera_from_previous, {});
-    if (before && !X_CCp.empty()) {
-      camera->body_from_camera = row_by_row(rig.cameras[*before].X_BC() * pose(X_CCp, "calibration").inverse());
-    }
-    before = static_cast<size_t>(camera - rig.cameras.begin());
+    with(i, states_pose, [&] {
+      if (before && !X_CCp.empty()) {
+        camera->body_from_camera = numbers_of(rig.cameras[*before].X_BC() * pose_of(X_CCp, "calibration").inverse());
+      }
+      camera->X_BC();  // may throw
+    });
+    before = i;
   }
   rig.read_calibrations.push_back(std::exchange(rig.calibration, {}));
 }
 
 }  // namespace
 
-Eigen::Isometry3d CameraConfig::X_BC() const {
-  require_one_pose(*this);
-  dynamics::sensors::ImuConfig imu{.p_BI_m = p_BI_m};
-  const auto from_F = [&](const Eigen::Isometry3d& X_FC) { return X_FB(imu).inverse() * X_FC; };
-  if (!body_from_camera.empty()) return pose(body_from_camera, "body_from_camera");
-  if (!imu_from_camera.empty()) return from_F(pose(imu_from_camera, "imu_from_camera"));
-  if (!camera_from_imu.empty()) return from_F(pose(camera_from_imu, "camera_from_imu").inverse());
-  Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();
-  X_BC.translation() = Eigen::Vector3d(forward_m, right_m, down_m);
-  if (!quaternion.empty()) {
-    require(quaternion.size() == 4, "quaternion", fmt::format("must have 4 numbers, got {}", quaternion.size()));
-    const Eigen::Quaterniond q_BC(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
-    constexpr double kMaxError = 1e-3;
-    require(std::abs(q_BC.norm() - 1.0) <= kMaxError, "quaternion", "must have length 1");
-    X_BC.linear() = q_BC.normalized().toRotationMatrix();
-    return X_BC;
-  }
-  // Columns are C's axes (right, down, forward) of a forward camera, expressed in B: a cyclic permutation.
-  Eigen::Matrix3d R_forward;
-  R_forward.col(0) = Eigen::Vector3d::UnitY();
-  R_forward.col(1) = Eigen::Vector3d::UnitZ();
-  R_forward.col(2) = Eigen::Vector3d::UnitX();
-
-  const Eigen::Quaterniond q_mount = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-                                     Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                                     Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
-  X_BC.linear() = q_mount.toRotationMatrix() * R_forward;
-  return X_BC;
-}
-
 void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
-  const auto at = [](const std::string& path, const auto& action) {
-    try {
-      action();
-    } catch (const fields::InvalidField& error) {
-      throw fields::InvalidField(path + "." + error.key(), error.message());
-    }
-  };
   for (size_t i = 0; i < rig.cameras.size(); ++i) {
-    at(fmt::format("cameras.{}", i),
-       [&] { apply_own_calibration(rig.cameras[i], /*is_pair=*/false, rig.read_calibrations); });
+    below(fmt::format("cameras.{}", i),
+          [&] { apply_own_calibration(rig.cameras[i], /*is_pair=*/false, rig.read_calibrations); });
   }
   for (size_t i = 0; i < rig.stereo.size(); ++i) {
-    at(fmt::format("stereo.{}", i), [&] {
+    below(fmt::format("stereo.{}", i), [&] {
       CameraConfig& camera = rig.stereo[i].camera;
       if (camera.role.empty()) camera.role = "left";
       camera.p_BI_m = p_BI_m;
@@ -276,7 +207,7 @@ void mount_rig(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
       camera.role = (pair.role.empty() ? "" : pair.role + "_") + (side < 0.0 ? "left" : "right");
       if (has_matrix(pair.camera)) {
         clear_matrices(camera);
-        camera.body_from_camera = row_by_row(Eigen::Translation3d(side * half_B) * X_BC);
+        camera.body_from_camera = numbers_of(Eigen::Translation3d(side * half_B) * X_BC);
         continue;
       }
       camera.forward_m += side * half_B.x();

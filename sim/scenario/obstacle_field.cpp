@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <numbers>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "sim/config/numbers.h"
 #include "sim/config/outline_texts.h"
 #include "sim/config/whole_file.h"
+#include "sim/fields/file_fault.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -153,6 +155,13 @@ void add_flightmare_movers(const fs::path& file, OpenConfig& scene) {
     refuse_field(field_key(root, "N"), fmt::format("N is {:g}, but the file has {} objects", count, found));
 }
 
+void require_sdf(const fs::path& file) {
+  std::string fault = file_fault(file), suffix = file.extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (suffix != ".sdf" && suffix != ".world") fault = "the suffix is unknown; valid: .sdf, .world";
+  if (!fault.empty()) throw InputError(fmt::format("{}: {}", file.string(), fault));
+}
+
 }  // namespace
 
 OpenConfig read_obstacle_field(FieldFormat format, std::span<const fs::path> files, double scale) {
@@ -162,6 +171,7 @@ OpenConfig read_obstacle_field(FieldFormat format, std::span<const fs::path> fil
     if (format == FieldFormat::aerialist) {
       add_aerialist(file, scene);
     } else if (format == FieldFormat::sdf) {
+      require_sdf(file);
       scene.added.imports.push_back(
           {.file = fs::absolute(file).lexically_normal().string(), .name = file.stem().string(), .scale = scale});
     } else if (suffix == ".csv") {

@@ -1,7 +1,5 @@
 #include "sim/scenario/reference_path.h"
 
-#include "sim/config/include.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 #include <stdexcept>
 
 #include "sim/config/numbers.h"
+#include "sim/config/whole_file.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -74,8 +73,7 @@ std::string reference_bytes(const std::filesystem::path& file) {
   try {
     return read_input_file(file);
   } catch (const std::invalid_argument& why) {
-    throw std::invalid_argument(
-        fmt::format("cannot read {}: {}; `hedgehop bless` writes it", file.string(), why.what()));
+    throw std::invalid_argument(fmt::format("{}: {}; `hedgehop bless` writes it", file.string(), why.what()));
   }
 }
 

@@ -9,8 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "sim/config/include.h"
 #include "sim/config/input_error.h"
+#include "sim/config/whole_file.h"
 #include "sim/fields/bounds.h"
 #include "sim/fields/invalid_field.h"
 #include "sim/libm/random.h"
@@ -139,7 +139,8 @@ vision::camera::Camera ocam(const CameraConfig& c) {
 
 vision::camera::Camera CameraConfig::model() const {
   fields::require_bounds(*this);
-  require(std::has_single_bit(static_cast<unsigned>(samples)), "samples", "valid: 1, 2, 4, 8");
+  require(std::has_single_bit(static_cast<unsigned>(samples)), "samples",
+          fmt::format("must be 1, 2, 4 or 8, got {}", samples));
   require(model_kind == Model::ocam || calibration.empty(), "calibration", "has not been applied by mount_rig()");
   require(!xi || model_kind == Model::unified || model_kind == Model::double_sphere, "xi",
           "is for model: unified or double_sphere");

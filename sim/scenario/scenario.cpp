@@ -115,18 +115,25 @@ void require_scenario(const Node& root, ErrorList& errors) {
       {"question", "a plan, for `hedgehop batch --plan`"},
       {"rows", "a paper, for `hedgehop reproduce`"},
       {"flights", "a campaign, for `hedgehop batch`"},
+      {"leaderboard", "a campaign, for `hedgehop batch`"},
       {"parameters", "a sweep or a search, for `hedgehop sweep` or `hedgehop falsify`"},
       {"mass", "a vehicle; a scenario names it: vehicle: {use: FILE}"},
       {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
       {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
       {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
   if (root.incomplete) errors.throw_if_any();  // the missing file may have the keys of its kind
-  if (root.find("scene") || root.find("vehicle") || root.find("avoidance")) return;
+  for (const std::string_view key : {"scene", "vehicle", "start", "avoidance"}) {
+    if (root.find(key)) return;
+  }
   for (const auto& [key, description] : kKinds) {
     if (!root.find(key)) continue;
     errors.add(root.position, fmt::format("is not a scenario but {}", description));
     errors.throw_if_any();
   }
+  errors.add(root.position,
+             "is no file of Hedgehop: it lacks all keys of a scenario (scene, vehicle, start, avoidance), a campaign "
+             "(flights or leaderboard), a sweep or search (parameters), or a paper (rows)");
+  errors.throw_if_any();
 }
 
 /// @param file  source of `root`. @param read  files read so far.

@@ -14,6 +14,7 @@
 #include "avoidance/module.h"
 #include "sim/config/names.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/shortened.h"
 #include "sim/scenario/avoidance_config.h"
 #include "sim/scenario/rates.h"
 
@@ -217,6 +218,9 @@ class Validator {
       build();
     } catch (const std::invalid_argument& error) {
       errors_.push_back(field_error(path, error));
+    } catch (const InputError& error) {  // several errors, such as those of a calibration file
+      if (error.field_errors().empty()) throw;
+      for (const FieldError& field : error.field_errors()) add(join_path(path, field.path), field.message);
     }
   }
 
@@ -243,13 +247,13 @@ std::string signal_fault(std::span<const avoidance::Signal> signals) {
       "t_s", "status", "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad"};
   for (const avoidance::Signal& signal : signals) {
     if (const std::string fault = name_fault(signal.name); !fault.empty()) {
-      return fmt::format("signal '{}' of the module: {}", signal.name.substr(0, 40), fault);
+      return fmt::format("the module's signal '{}': {}", shortened(signal.name, 40), fault);
     }
     if (std::ranges::find(kOwnColumns, signal.name) != std::end(kOwnColumns)) {
-      return fmt::format("signal '{}' of the module: is a column of the record itself; rename it", signal.name);
+      return fmt::format("the module's signal '{}' has the name of a column of decisions.csv; rename it", signal.name);
     }
     if (std::ranges::count(signals, signal.name, &avoidance::Signal::name) > 1) {
-      return fmt::format("signal '{}' of the module: occurs twice", signal.name);
+      return fmt::format("the module's signal '{}' occurs twice", signal.name);
     }
   }
   return "";

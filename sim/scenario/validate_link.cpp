@@ -1,7 +1,9 @@
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 #include <variant>
 
 #include "sim/scenario/motor_frames.h"
@@ -25,8 +27,13 @@ class LinkValidator {
       swashplate(*link_.helicopter);
     }
     ranges();
+    in_addr ignored{};
+    if (::inet_pton(AF_INET, link_.host.c_str(), &ignored) != 1) {
+      add("link.host", fmt::format("must be a numeric IPv4 address such as 127.0.0.1, got '{}'", link_.host));
+    }
     if (scenario_.physics_rate_hz && *scenario_.physics_rate_hz < link_.loop_rate_hz) {
-      add("physics_rate", fmt::format("{} is below the loop rate {}", *scenario_.physics_rate_hz, link_.loop_rate_hz));
+      add("physics_rate",
+          fmt::format("{} Hz is below the loop rate of {} Hz", *scenario_.physics_rate_hz, link_.loop_rate_hz));
     }
     return errors_;
   }
@@ -34,7 +41,7 @@ class LinkValidator {
  private:
   void motors(const dynamics::multicopter::MulticopterConfig& vehicle) {
     const MulticopterLinkConfig& c = link_.multicopter;
-    if (!(c.pwm_min_us < c.pwm_max_us)) add("link.multicopter.pwm_max", "must be greater than pwm_min");
+    require_less("link.multicopter.pwm_max", c.pwm_max_us, "pwm_min", c.pwm_min_us, "us");
     std::ranges::move(match_motors(vehicle, c.frame_class, c.frame_type).errors, std::back_inserter(errors_));
   }
 
@@ -44,18 +51,22 @@ class LinkValidator {
     if (!c.trim_us.empty() && c.trim_us.size() != servos) {
       add("link.helicopter.trim", fmt::format("{} pulses; the swashplate has {} servos", c.trim_us.size(), servos));
     }
-    if (!(c.collective_min_us < c.collective_max_us)) {
-      add("link.helicopter.collective_max", "must be greater than collective_min");
-    }
-    if (!(c.collective_low_rad < c.collective_high_rad)) {
-      add("link.helicopter.collective_high", "must be greater than collective_low");
-    }
+    require_less("link.helicopter.collective_max", c.collective_max_us, "collective_min", c.collective_min_us, "us");
+    constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+    require_less("link.helicopter.collective_high", kDegPerRad * c.collective_high_rad, "collective_low",
+                 kDegPerRad * c.collective_low_rad, "deg");
     if (!(c.tail.min_us < c.tail.trim_us && c.tail.trim_us < c.tail.max_us)) {
-      add("link.helicopter.tail", "min, trim and max must rise");
+      add("link.helicopter.tail", fmt::format("min, trim and max must rise, got {}, {} and {} us", c.tail.min_us,
+                                              c.tail.trim_us, c.tail.max_us));
     }
-    if (!(c.throttle_min_us < c.throttle_max_us)) {
-      add("link.helicopter.throttle_max", "must be greater than throttle_min");
-    }
+    require_less("link.helicopter.throttle_max", c.throttle_max_us, "throttle_min", c.throttle_min_us, "us");
+  }
+
+  /// Adds an error to `path` unless the value of another key is less than its value.
+  void require_less(std::string path, double value, std::string_view other, double other_value, std::string_view unit) {
+    if (other_value < value) return;
+    add(std::move(path),
+        fmt::format("must be greater than {} ({:.6g} {}), got {:.6g}", other, other_value, unit, value));
   }
 
   void ranges() {
@@ -87,8 +98,8 @@ std::vector<FieldError> errors_of(const Scenario& scenario, const Px4LinkConfig&
   std::vector<FieldError> errors = match_motors(*vehicle, link.frame_class, link.frame_type, "link").errors;
   constexpr int64_t kImuRateHz = 250;  // of PX4's lockstep
   if (scenario.physics_rate_hz && *scenario.physics_rate_hz % kImuRateHz != 0) {
-    errors.push_back(
-        {"physics_rate", fmt::format("{} is no multiple of PX4's IMU rate {}", *scenario.physics_rate_hz, kImuRateHz)});
+    errors.push_back({"physics_rate", fmt::format("{} Hz is no multiple of PX4's IMU rate, {} Hz",
+                                                  *scenario.physics_rate_hz, kImuRateHz)});
   }
   return errors;
 }

@@ -167,7 +167,7 @@ class Simulation::Impl {
   ModuleMaker make_module_;
   FlightWatcher* watcher_;
   OutsideAutopilot* outside_;
-  std::optional<FlightEnvironment> environment_;  ///< empty after a reset that failed
+  std::optional<FlightEnvironment> environment_;  ///< empty after a reset that could not make its new scene
   std::optional<MapJudge> judge_;
   std::optional<Episode> episode_;  ///< refers to all of the above; empty after a reset that failed
   double flying_s_ = 0.0;           ///< wall time

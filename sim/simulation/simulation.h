@@ -58,9 +58,9 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Starts the same flight again, with the same scene and renderer. Throws std::logic_error for a linked flight, and
-  /// as the constructor. After an exception there is no flight: all other functions except scenario() throw
-  /// std::logic_error until a reset succeeds.
+  /// Starts the same flight again, with the same scene and renderer. Throws std::logic_error for a linked flight, which
+  /// remains as it is. Throws as the constructor; then there is no flight, and all other functions except scenario()
+  /// throw std::logic_error until a reset succeeds.
   void reset();
   /// Starts the flight of another seed. A world of its own (Scenario::world_seed) is kept, which is as fast as reset().
   void reset(uint64_t seed);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "sim/batch/folders.h"
 #include "sim/batch/record.h"
 #include "sim/config/numbers.h"
 #include "sim/config/whole_file.h"
@@ -59,12 +60,14 @@ std::string sbatch(const std::string& options, const std::filesystem::path& scri
   std::array<char, 256> buffer{};
   while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
   const int status = ::pclose(pipe);
-  const std::string number = text.substr(0, text.find_first_of(";\n"));  // "4711;cluster" of a federation
+  const std::string last = last_line(text);                   // sites write notices before it
+  const std::string number = last.substr(0, last.find(';'));  // "4711;cluster" of a federation
   if (status == 0 && parse_unsigned(number)) return number;
   text += read_file_whole(messages);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (size_t end = 0; (end = text.find('\n', end)) != std::string::npos;) text.replace(end, 1, "; ");
-  throw std::runtime_error(fmt::format("{}: {}", command, text.empty() ? "it prints no job number" : text));
+  const std::string_view why = status == 0 ? "printed no job number, so the job may be submitted" : "failed";
+  throw std::runtime_error(fmt::format("{} {}{}{}", command, why, text.empty() ? "" : ": ", text));
 }
 
 }  // namespace
@@ -124,7 +127,7 @@ std::string merge_script(const SlurmJob& job) {
 }
 
 std::string submit(const SlurmJob& job) {
-  std::filesystem::create_directories(job.out / "slurm");
+  create_folders(job.out / "slurm");
   const std::filesystem::path array = job.out / "slurm/array.sh", merge = job.out / "slurm/merge.sh";
   write_file_whole(array, array_script(job));
   write_file_whole(merge, merge_script(job));

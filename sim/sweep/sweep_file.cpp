@@ -101,7 +101,7 @@ Scenario base_scenario(const SweepConfig& sweep, const Node& root) {
     ErrorList faults("sweep");
     faults.add(
         position_of(root, "scenario"),
-        fmt::format("there is no file '{}'{}", sweep.scenario,
+        fmt::format("there is no such file: '{}'{}", sweep.scenario,
                     std::filesystem::path(sweep.scenario).is_relative() ? " (relative to the sweep's folder)" : ""));
     faults.throw_if_any();
   }

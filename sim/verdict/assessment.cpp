@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -162,7 +161,6 @@ CheckResult evaluate(const MaxSpeedCheck& check, const Evidence& e) {
 }
 
 CheckResult evaluate(const MaxTiltCheck& check, const Evidence& e) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const Extreme tilt = e.maximum([](const TrajectoryRow& row) { return dynamics::tilt_rad(row.rpy_true); });
   return {std::string{MaxTiltCheck::kName},
           tilt.value <= check.at_most_rad,

@@ -273,7 +273,10 @@ CheckResult evaluate_formula(const FormulaCheck& check, const Scenario& scenario
   result.passed = result.value >= 0.0;
   const TrajectoryRow& decisive = flight.trajectory[r.decisive[0]];
   result.t_s = decisive.t_s;
-  if (result.value == -kInfinity && !decisive.v_WB_W_cmd && uses_signal(formula, "tracking_error"))
+  const bool may_be_unknown =
+      result.value == -kInfinity && !decisive.v_WB_W_cmd && uses_signal(formula, "tracking_error");
+  // The unknown values are the cause only if the formula could hold with others.
+  if (may_be_unknown && Evaluator(signals).of(formula, kInfinity).value[0] >= 0.0)
     result.cause = "no velocity was commanded";
   return result;
 }

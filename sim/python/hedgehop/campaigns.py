@@ -13,7 +13,8 @@ from ._native import InputError
 from .results import load
 from .simulation import overrides
 
-_PROGRESS = re.compile(r"\d+/\d+[:, ]")  # as in "3/10, 1 failed: city_seed3 reached; about 20 s left"
+# As in "3/10, 1 failed: city_seed3 reached; about 20 s left".
+_PROGRESS = re.compile(r"\d+/\d+[:, ]|checking \d+ points before the flights")
 
 _WARNING = "warning: "
 
@@ -68,7 +69,7 @@ def _fly(command, progress):
     if running.returncode not in (0, 1):
         raise RuntimeError(errors or f"hedgehop ended with status {running.returncode}")
     for line in lines:
-        if line.startswith(_WARNING):
+        if line.strip() and not _PROGRESS.match(line):
             warnings.warn(line.removeprefix(_WARNING), stacklevel=3)
 
 

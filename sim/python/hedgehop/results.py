@@ -28,6 +28,16 @@ def _text(file):
     return file.read_text(encoding="utf-8")
 
 
+def _read_json(file):
+    """Returns the content of a JSON file. Raises ValueError with the place of a fault."""
+    text = _text(file)
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        kind = "complete" if error.pos >= len(text.rstrip()) else "valid"
+        raise ValueError(f"{file}:{error.lineno}:{error.colno}: is not {kind} JSON") from None
+
+
 def read_table(text):
     """Returns the table of a CSV text as a record array with one field per column."""
     rows = list(csv.reader(io.StringIO(text)))
@@ -59,7 +69,7 @@ def load(folder):
             return read_table(_text(folder / table))
     if not (folder / "result.json").exists():
         raise FileNotFoundError(f"{folder}: no result.json, batch.csv or sweep.csv")
-    return Flight(json.loads(_text(folder / "result.json")), read_table(_text(folder / "trajectory.csv")),
+    return Flight(_read_json(folder / "result.json"), read_table(_text(folder / "trajectory.csv")),
                   read_table(_text(folder / "decisions.csv")))
 
 

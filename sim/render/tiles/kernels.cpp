@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -39,9 +38,8 @@ const Kernels& chosen_kernels() {
     if (requested.empty() || requested == found.name) return *found.kernels;
   }
   if (requested.empty()) {
-    throw std::runtime_error(
-        "renderer tiles needs AVX2, which this processor lacks; use --renderer osmesa, or HEDGEHOP_TILES=plain, which "
-        "is "
+    throw InputError(
+        "tiles: not available: this processor lacks AVX2; use --renderer osmesa, or HEDGEHOP_TILES=plain, which is "
         "slow");
   }
   throw InputError(

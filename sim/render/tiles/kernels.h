@@ -79,7 +79,7 @@ extern const Kernels kAvx2Kernels, kAvx512Kernels;
 
 /// Returns the fastest kernels that this processor supports. The environment variable HEDGEHOP_TILES selects others:
 /// "avx512", "avx2", or "plain", which is slow and runs on every processor. All kernels give the same bits.
-/// Throws std::runtime_error that names a remedy if there are none.
+/// Throws InputError that names a remedy if there are none.
 const Kernels& chosen_kernels();
 
 }  // namespace hedgehop::sim::tiles

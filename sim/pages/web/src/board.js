@@ -57,6 +57,12 @@ function boardCell(cell, on) {
   return element;
 }
 
+/** Returns the place of the strips that the page lacks. */
+function omittedWords(count) {
+  const file = count === 1 ? 'It is strip.jpg in the folder of the flight.' : 'Each is strip.jpg in the folder of its flight.';
+  return `${countOf(count, 'film strip')} ${count === 1 ? 'is' : 'are'} not shown, because a page has at most 2.5 MB of them. ${file}`;
+}
+
 /** Film strips of the flights that have one, with links to more of each. */
 function fillStrips(host, data, table, on) {
   const {images, omitted} = data.strips;
@@ -66,7 +72,7 @@ function fillStrips(host, data, table, on) {
   }
   host.append(make('h2', '', 'Film strips of the worst flights'),
     make('p', 'soft', 'Camera images with the overlays of the modules before the collision or the closest approach, from a re-simulation.'));
-  if (omitted) host.append(make('p', 'soft', `${countOf(omitted, 'film strip')} not shown, because the strips of a page are limited to 2.5 MB: strip.jpg in the folder of the flight.`));
+  if (omitted) host.append(make('p', 'soft', omittedWords(omitted)));
   for (const [row, jpeg] of images) {
     const figure = host.appendChild(make('figure', 'strip')), line = figure.appendChild(make('figcaption', 'flight-line'));
     line.classList.add('long');

@@ -14,12 +14,6 @@ function flightButton(table, row, on) {
   return button;
 }
 
-function addRow(table, cells, tag = 'td') {
-  const row = table.appendChild(make('tr'));
-  for (const [text, className] of cells) row.append(make(tag, className, text));
-  return row;
-}
-
 /** Returns the verdict on all flights: {words, more, look}. */
 function campaignVerdict(data, table) {
   const all = data.groups[0], claims = data.claims.conduct?.sequential ?? [], verdicts = data.claims.conduct?.verdicts ?? [];

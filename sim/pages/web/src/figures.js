@@ -9,6 +9,13 @@ function make(tag, className = '', text = '') {
   return element;
 }
 
+/** Adds a row of [text, class] cells to a table and returns it. */
+function addRow(table, cells, tag = 'td') {
+  const row = table.appendChild(make('tr'));
+  for (const [text, className] of cells) row.append(make(tag, className, text));
+  return row;
+}
+
 /** Returns a number with this many significant figures and a typographic minus. */
 function short(value, figures = 4) {
   if (value === null || value === undefined) return '–';
@@ -46,6 +53,10 @@ function measured(value, unit, figures = 4) {
   let i = units.indexOf(unit);
   if (value && i >= 0) for (; Math.abs(value) < 0.01 && i < units.length - 1; ++i) value *= 1000;
   return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unitWords(unit)) : '');
+}
+/** Returns the outcome as pages show it: a timeout without a goal, the normal end of such a flight, is "completed". */
+function shownOutcome(outcome, goal_distance_m) {
+  return outcome === 'timeout' && (goal_distance_m ?? null) === null ? 'completed' : outcome;
 }
 function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 

@@ -15,11 +15,10 @@ class FlightTable {
       seeds.values = seeds.values.map((text) => text === '' ? null : Number(text));
     }
     const outcomes = this.columns.get('outcome'), goals = this.columns.get('goal_distance_m');
-    // A timeout without a goal is the normal end of a flight.
-    const completed = (row) => outcomes.values[row] === 'timeout' && (goals?.values[row] ?? null) === null;
     if (!outcomes) return;
-    this.why = this.why.map((words, row) => completed(row) ? words.replace(/^timeout/, 'completed') : words);
-    outcomes.values = outcomes.values.map((word, row) => completed(row) ? 'completed' : word);
+    const shown = outcomes.values.map((word, row) => shownOutcome(word, goals?.values[row]));
+    this.why = this.why.map((words, row) => shown[row] === 'completed' ? words.replace(/^timeout/, 'completed') : words);
+    outcomes.values = shown;
   }
   /** Returns the counts of the flights by their first failed check: [[name, count], ...], collisions and then the most frequent first. */
   failureCounts(rows) {

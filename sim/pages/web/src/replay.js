@@ -8,7 +8,7 @@ import {ModuleMap} from './replay_map.js';
 import {Plots} from './replay_plots.js';
 import {goalMark, ground, groundMark, moverMesh, PathLine, solidsMesh, vehicle} from './replay_scene.js';
 import {Screens} from './replay_screens.js';
-import {eventsOf, outcomeWords, Track} from './replay_track.js';
+import {eventsOf, Track} from './replay_track.js';
 import {Views} from './replay_views.js';
 import {addWorld} from './replay_world.js';
 
@@ -155,8 +155,9 @@ function setPlaying(playing) {
 
 function describe() {
   const what = element('what');
-  what.replaceChildren(make('h1', '', result.scenario), make('p', 'soft', data.live ? `seed ${result.seed}, ${outcomeWords(result)}`
-    : `seed ${result.seed}, ${outcomeWords(result)} after ${fixed(result.flight_time_s, 1)} s`));
+  const outcome = shownOutcome(result.outcome, result.goal_distance_m);
+  what.replaceChildren(make('h1', '', result.scenario), make('p', 'soft', data.live ? `seed ${result.seed}, ${outcome}`
+    : `seed ${result.seed}, ${outcome} after ${fixed(result.flight_time_s, 1)} s`));
   if (result.truth_used?.length) what.append(make('p', 'fail', `The module used the truth: ${result.truth_used.join('; ')}`));
   what.appendChild(make('p')).id = 'facts';
   what.append(make('p', 'soft more', `Hedgehop ${result.version}, build ${result.build}` + (data.map ? '; map of the module: green true, red false' : '')));

@@ -1,10 +1,5 @@
 // The time axis: status of the module, events and the handle of the time share one scale.
 
-/** Returns the words of an outcome; a timeout without a goal is the normal end. */
-export function outcomeWords({outcome, goal_distance_m}) {
-  return outcome === 'timeout' && (goal_distance_m ?? null) === null ? 'completed' : outcome;
-}
-
 /** Returns the events of a flight: failures, closest approach, end. */
 export function eventsOf(result, end_s) {
   const closest = result.closest_obstacle, events = [];
@@ -12,7 +7,7 @@ export function eventsOf(result, end_s) {
     events.push({t_s: closest.t_s, text: `closest: ${closest.what || 'obstacle'}, ${meters(closest.distance_m)}`});
   }
   const ends = {collided: `hit ${hitWords(result)}`, reached: 'goal reached'};
-  if (end_s > 0) events.push({t_s: end_s, text: ends[result.outcome] ?? outcomeWords(result), bad: ['collided', 'fault', 'link_lost'].includes(result.outcome)});
+  if (end_s > 0) events.push({t_s: end_s, text: ends[result.outcome] ?? shownOutcome(result.outcome, result.goal_distance_m), bad: ['collided', 'fault', 'link_lost'].includes(result.outcome)});
   for (const {from_s, to_s, text} of failuresOf(result, end_s)) events.push({t_s: from_s, to_s, text, bad: true});
   return events;
 }

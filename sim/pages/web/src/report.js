@@ -59,11 +59,6 @@ function fillTiles(host, result) {
   tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${measured(result.wall_s, 's', 3)} of wall time`);
 }
 
-function addRow(table, cells, tag = 'td') {
-  const row = table.appendChild(make('tr'));
-  for (const [text, className] of cells) row.append(make(tag, className, text));
-}
-
 const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
 
 /** Returns the figures with which a value differs from its limit, so that no failure reads as "2.04 ≤ 2.04". */

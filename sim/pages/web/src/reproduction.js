@@ -45,11 +45,7 @@ class PathChart {
 
 function addRows(host, rows) {
   const table = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
-  const line = (cells, tag) => {
-    const row = table.appendChild(make('tr'));
-    for (const [text, className] of cells) row.append(make(tag, className, text === '-' ? '–' : text));
-    return row;
-  };
+  const line = (cells, tag) => addRow(table, cells.map(([text, look]) => [text === '-' ? '–' : text, look]), tag);
   line(['claim', 'paper', 'required', 'published', 'modified: ideal', 'modified: day', 'modified: dull', 'flights: required, flown, faulted, with figure',
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {

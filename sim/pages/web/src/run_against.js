@@ -25,7 +25,7 @@ class RunAgainst {
     const table = host.appendChild(make('table')), {result} = this.data, other = this.against.result;
     addRow(table, [['', ''], ['this run', 'number'], ['other run', 'number']], 'th');
     const row = (name, of) => addRow(table, [[name, ''], [of(result), 'number'], [of(other), 'number']]);
-    row('outcome', (r) => r.outcome === 'timeout' && r.goal_distance_m === null ? 'completed' : r.outcome);
+    row('outcome', (r) => shownOutcome(r.outcome, r.goal_distance_m));
     row('checks that hold', (r) => `${r.checks.filter((c) => c.passed).length} of ${r.checks.length}`);
     row('seed', (r) => String(r.seed));
     row('flight time, s', (r) => fixed(r.flight_time_s, 1));
