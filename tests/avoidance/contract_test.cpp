@@ -23,7 +23,6 @@ struct Row {
   bool holds_heading = true;     ///< and altitude; otherwise it flies in the direction of view
   bool fisheye = false;          ///< has one downward camera
   bool learned = false;          ///< flies the output of a network
-  bool looks_apart = false;      ///< turns the nose to unknown space, not to the direction of flight
   std::string blank = "cruise";  ///< status with blank images; empty: several
   friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
 };
@@ -60,7 +59,6 @@ std::vector<Row> rows() {
   auto all = default_rows(std::make_index_sequence<std::variant_size_v<ModuleConfig>>{});
   for (Row& row : all) {
     row.stereo = row.name == "section_grid" || row.name == "stereo_corridor" || row.name == "local_map";
-    row.looks_apart = row.name == "local_map";
     row.fisheye = row.name == "corridor_centering";
     row.learned = row.name == policy::OnnxPolicyConfig::kName;
     row.holds_heading = !row.stereo && !row.fisheye && !row.learned && row.name != "landmark_map";
@@ -148,16 +146,18 @@ TEST_P(Contract, SignalAndMetricNamesAreUniqueAndConstant) {
 TEST_P(Contract, EveryRequiredCameraMustBePresent) { contract::expect_all_needed_cameras_must_be_there(subject()); }
 
 TEST_P(Contract, HoldsTheHeadingAndAltitudeOfTheGoalOrFliesInTheDirectionOfView) {
+  if (GetParam().learned) GTEST_SKIP() << "a network may look and fly anywhere";
+  if (GetParam().stereo) GTEST_SKIP() << "commands no velocities in this flight, or looks at unknown space";
   const contract::Subject under_test = subject();
+  int velocities = 0;
   for (const Decision& decision : under_test.fly(*under_test.make())) {
     if (const auto* velocity = std::get_if<VelocityCommand>(&decision.command)) {
-      if (GetParam().learned) continue;
+      ++velocities;
       if (GetParam().fisheye) {
         const double way_rad = std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x());
         EXPECT_LT(std::abs(std::remainder(velocity->heading_rad - way_rad, 2.0 * M_PI)), 0.5 * M_PI);
         continue;
       }
-      if (GetParam().looks_apart) continue;
       if (!GetParam().holds_heading) {
         EXPECT_NEAR(velocity->heading_rad, std::atan2(velocity->v_WB_W.y(), velocity->v_WB_W.x()), 1e-12);
         continue;
@@ -166,6 +166,7 @@ TEST_P(Contract, HoldsTheHeadingAndAltitudeOfTheGoalOrFliesInTheDirectionOfView)
       EXPECT_EQ(velocity->altitude_m, 8.0);
     }
   }
+  EXPECT_GE(velocities, kSteps - 1);  // the first image alone has no flow
 }
 
 TEST_P(Contract, ContinuesWithBlankImagesAndTreatsThePathAsFree) {

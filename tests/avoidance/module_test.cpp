@@ -136,6 +136,18 @@ TEST_F(Checked, CommandsMustBeFinite) {
   }
 }
 
+TEST_F(Checked, ACommandThatIsNotFiniteIsNamedWithItsValues) {
+  module.reset(setup);
+  module.next.command = VelocityCommand{{kNan, 0}, 5, 0.5};
+  try {
+    update();
+    FAIL() << "accepted";
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the module's VelocityCommand is not finite: velocity (nan, 0) m/s, altitude 5 m, heading 0.5 rad");
+  }
+}
+
 TEST_F(Checked, CommandsMustBeOfADeclaredType) {
   module.commands = {CommandType::velocity, CommandType::position};
   module.reset(setup);

@@ -10,6 +10,7 @@ usage: commands_test.py SOURCE BUILD PROGRAM PAGE|tables [NAME=VALUE, of the env
 import json
 import os
 import pathlib
+import random
 import re
 import shlex
 import shutil
@@ -43,21 +44,28 @@ def commands(text):
         yield from re.findall(r"\| `(hedgehop (?!list scenes`)[^`]*|(?:build|scripts)/[^`]* [^`]*|scripts/[^`]+)`(?= \|)", row)
 
 
-def free_instance():
+# Per type of link, the ports of the autopilots N: kind, port of 0, step from one to the next.
+PORTS = {"ardupilot_json": [(socket.SOCK_DGRAM, 9002, 10), (socket.SOCK_STREAM, 5760, 10)],
+         "px4": [(socket.SOCK_STREAM, 4560, 1), (socket.SOCK_DGRAM, 14540, 1), (socket.SOCK_DGRAM, 14580, 1)]}
+
+
+def free_instance(link):
     """The number of an autopilot whose ports, and those of the next three, no other process uses: pages are tested in parallel."""
-    for instance in sorted(range(0, 92, 4), key=lambda number: (number * 7 + os.getpid()) % 92):
+    numbers = range(0, 40, 4) if link == "px4" else range(0, 92, 4)  # PX4's UDP ports are only 40 apart
+    for instance in random.Random(os.getpid()).sample(numbers, len(numbers)):
         try:
             for number in range(instance, instance + 4):
-                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-                    probe.bind(("127.0.0.1", 9002 + 10 * number))
+                for kind, first, step in PORTS[link]:
+                    with socket.socket(socket.AF_INET, kind) as probe:
+                        probe.bind(("127.0.0.1", first + step * number))
             return instance
         except OSError:
             continue
-    raise RuntimeError("no free port for an autopilot")
+    raise RuntimeError(f"no free ports for an autopilot of type {link}")
 
 
 def shortened_file(text):
-    text = text.replace("  type: ardupilot_json\n", f"  type: ardupilot_json\n  instance: {free_instance()}\n")
+    text = re.sub(rf"^  type: ({'|'.join(PORTS)})$", lambda link: f"{link[0]}\n  instance: {free_instance(link[1])}", text, flags=re.M)
     text = re.sub(r"^(duration): .*$", rf"\1: {SHORT_S}", text, flags=re.M)
     text = re.sub(r"before: [0-9.]+", f"before: {SHORT_S}", text)
     text = re.sub(r"\bduration=[0-9.]+", f"duration={SHORT_S}", text)

@@ -56,8 +56,9 @@ TEST(PlausibleUnits, RecognizeARotorSpeedInRpm) {
   helicopter::HelicopterConfig config;
   config.main_rotor.radius_m = 1.54;
   config.main_rotor.speed_radps = 870.0;
-  EXPECT_EQ(refusal(config),
-            "main_rotor.speed: 870: tip speed 1340 m/s; 870 rpm is 91.1 rad/s; did you mean `rpm: 870`?");
+  EXPECT_EQ(
+      refusal(config),
+      "main_rotor.speed: 870: tip speed 1340 m/s, faster than sound; 870 rpm is 91.1 rad/s; did you mean `rpm: 870`?");
   multicopter::MulticopterConfig multi;
   multi.rotor.highest_radps = 8000.0;
   EXPECT_THAT(refusal(multi), HasSubstr("did you mean `highest_rpm: 8000`?"));

@@ -1,7 +1,5 @@
 #include "tests/fuzz/readers.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -16,6 +14,7 @@
 #include "avoidance/flow_balance/flow_balance.h"
 #include "scenes/mesh/mesh_import.h"
 #include "scenes/mesh/texture_image.h"
+#include "scenes/pose_table.h"
 #include "scenes/terrain/heightmap.h"
 #include "sim/batch/campaign_file.h"
 #include "sim/batch/earlier_batch.h"
@@ -34,6 +33,7 @@
 #include "sim/scenario/rig.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sweep/sweep_file.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::fuzz {
 namespace {
@@ -47,7 +47,11 @@ void read_scenario(const std::filesystem::path& file) {
   faults.throw_if_any();
 }
 
-void read_campaign(const std::filesystem::path& file) { sim::read_batch({file}, {}, {}); }
+void read_campaign(const std::filesystem::path& file) {
+  for (const std::string& fault : sim::read_batch({file}, {}, {}).faults) {
+    if (!fault.ends_with("there is no such file")) throw sim::InputError(fault);  // the corpus has no scenarios
+  }
+}
 
 /// The part of an earlier batch that `batch --failed-only` reads.
 void read_earlier_batch(const std::filesystem::path& file) { sim::reread_batch(file); }
@@ -55,6 +59,14 @@ void read_earlier_batch(const std::filesystem::path& file) { sim::reread_batch(f
 void read_mesh(const std::filesystem::path& file) {
   scenes::Scene scene;
   scenes::mesh::add_imports({{.file = file.string()}}, Eigen::Vector3d::Zero(), scene);
+}
+
+/// As the material file of an OBJ is read.
+void read_materials(const std::filesystem::path& file) {
+  const std::filesystem::path obj = std::filesystem::path(file).replace_extension("obj");
+  std::ofstream(obj) << "mtllib " << file.filename().string()
+                     << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3\n";
+  read_mesh(obj);
 }
 
 /// As the image of a mesh's material is read.
@@ -127,6 +139,7 @@ constexpr std::array kReaders = {
     Reader{"parameters", "yaml", read_parameters},
     Reader{"mavlink", "bin", read_mavlink},
     Reader{"mesh_obj", "obj", read_mesh},
+    Reader{"mesh_mtl", "mtl", read_materials},
     Reader{"mesh_gltf", "gltf", read_mesh},
     Reader{"mesh_dae", "dae", read_mesh},
     Reader{"mesh_ply", "ply", read_mesh},
@@ -138,28 +151,26 @@ constexpr std::array kReaders = {
     Reader{"result", "json", [](const std::filesystem::path& file) { sim::read_result(file); }},
     Reader{"columns", "csv", [](const std::filesystem::path& file) { sim::read_columns(file); }},
     Reader{"packets", "bin", read_packets},
+    Reader{"pose_table", "csv", [](const std::filesystem::path& file) { scenes::read_pose_table(file); }},
     Reader{"reference", "csv", [](const std::filesystem::path& file) { sim::read_reference_path(file); }},
 };
 
 /// A folder for one process.
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("hedgehop_fuzz_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_ / "in");
+  Folder() {
+    std::filesystem::create_directory(temporary_.path() / "in");
     for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs")) {
-      std::filesystem::create_symlink(entry.path(), path_ / entry.path().filename());
+      std::filesystem::create_symlink(entry.path(), temporary_.path() / entry.path().filename());
     }
   }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
   std::filesystem::path file(std::string_view extension) const {
-    return path_ / "in" / ("input." + std::string(extension));
+    return temporary_.path() / "in" / ("input." + std::string(extension));
   }
 
  private:
-  std::filesystem::path path_;
+  sim::TemporaryFolder temporary_;
 };
 
 }  // namespace
@@ -171,18 +182,20 @@ const Reader* find(std::string_view name) {
   return found == kReaders.end() ? nullptr : found;
 }
 
-void feed(const Reader& reader, std::string_view bytes) {
+bool feed(const Reader& reader, std::string_view bytes) {
   static const Folder folder;
   const std::filesystem::path file = folder.file(reader.extension);
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   try {
     reader.read(file);
+    return true;
   } catch (const std::invalid_argument& fault) {
     if (typeid(fault) != typeid(std::invalid_argument) && typeid(fault) != typeid(fields::InvalidField)) throw;
   } catch (const std::runtime_error& fault) {
     // Not those of the standard library (std::range_error, a filesystem's) or of a package: they name no place.
     if (typeid(fault) != typeid(std::runtime_error) && typeid(fault) != typeid(sim::InputError)) throw;
   }
+  return false;
 }
 
 }  // namespace hedgehop::fuzz

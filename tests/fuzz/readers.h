@@ -18,7 +18,7 @@ std::span<const Reader> readers();
 const Reader* find(std::string_view name);
 
 /// Runs the reader on a file of these bytes, next to links to the contents of `configs/` (`../rigs/x.yaml`). Its
-/// documented exceptions are caught; others pass through.
-void feed(const Reader& reader, std::string_view bytes);
+/// documented exceptions are caught; others pass through. @return whether the file was read, not refused.
+bool feed(const Reader& reader, std::string_view bytes);
 
 }  // namespace hedgehop::fuzz

@@ -192,9 +192,11 @@ TEST(TableMotion, RefusesFaultyTables) {
   EXPECT_THAT(parse("0,0,0,0,1,0,0,0\n1,0,0,x,1,0,0,0\n"), ThrowsMessage<E>(HasSubstr("line 2: expected a number")));
   EXPECT_THAT(parse("0,0,0,0,1,0,0,nan\n"), ThrowsMessage<E>(HasSubstr("line 1: expected a number")));
   EXPECT_THAT(parse("0,0,0,0,1,1,0,0\n"), ThrowsMessage<E>(HasSubstr("quaternion")));
-  EXPECT_THAT(parse("1,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n"), ThrowsMessage<E>(HasSubstr("row 2")));
+  EXPECT_THAT(parse("1,0,0,0,1,0,0,0\n# t, x\n0.5,0,0,0,1,0,0,0\n"),
+              ThrowsMessage<E>(HasSubstr("line 3: the time 0.5 s is not after that of line 1")));
   Motion absent = TableMotion{.file = "absent.csv"};
-  EXPECT_THAT([&] { load_motion(absent); }, ThrowsMessage<E>(HasSubstr("motion.file: 'absent.csv'")));
+  EXPECT_THAT([&] { load_motion(absent); },
+              ThrowsMessage<E>(HasSubstr("motion.file: 'absent.csv': there is no such file")));
   EXPECT_THAT([&] { require_motion(absent); }, ThrowsMessage<E>(HasSubstr("not loaded")));
 }
 

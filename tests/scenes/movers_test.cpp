@@ -66,6 +66,32 @@ TEST(Movers, DoNotChangeTheRestOfTheScene) {
   EXPECT_TRUE(identical(with, without));
 }
 
+TEST(SceneEquality, SeesEveryDifference) {
+  const Scene scene = make_scene(room_with(one_of_each()), 3);
+  const std::vector<void (*)(Scene&)> changes{
+      [](Scene& s) { s.lights.sun += 0.1f; },
+      [](Scene& s) { s.sky.visibility_m = 1e3; },
+      [](Scene& s) { s.has_ground = !s.has_ground; },
+      [](Scene& s) { s.corners_W.emplace_back(0.0, 0.0, 0.0); },
+      [](Scene& s) { s.shortest_edge_m = 0.5; },
+      [](Scene& s) { s.bounds_NE_m.extend(Eigen::Vector2d(1e3, 0.0)); },
+      [](Scene& s) { s.meshes.at(0).instances.at(0).name += "2"; },
+      [](Scene& s) { s.meshes.at(0).chunks.at(0).box_W.extend(Eigen::Vector3f(0.0f, 0.0f, -1e3f)); },
+      [](Scene& s) { s.meshes.at(0).chunks.at(0).core_W.extend(Eigen::Vector3f(0.0f, 0.0f, -1e3f)); },
+      [](Scene& s) { s.meshes.at(0).chunks.at(0).first_index += 3; },
+      [](Scene& s) { s.meshes.at(0).chunks.at(0).fills_box_to_ground ^= true; },
+      [](Scene& s) { s.meshes.at(0).chunks.at(0).far.lost_m += 1.0f; },
+      [](Scene& s) { s.movers.at(0).name += "2"; },
+      [](Scene& s) { s.movers.at(0).motion = OrbitMotion(); },
+      [](Scene& s) { std::get<WaypointMotion>(s.movers.at(0).motion).speed_mps += 1.0; }};
+  for (size_t k = 0; k < changes.size(); ++k) {
+    Scene changed = scene;
+    EXPECT_TRUE(identical(changed, scene));
+    changes[k](changed);
+    EXPECT_FALSE(identical(changed, scene)) << "change " << k;
+  }
+}
+
 TEST(Movers, FollowTheScenesSolidsInTheCount) {
   const Scene room = make_scene(room_with(one_of_each()), 1);
   EXPECT_EQ(solid_at(room, 0).name, "north wall");

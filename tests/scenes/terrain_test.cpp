@@ -86,7 +86,13 @@ class Terrain : public mesh::ImportedFiles {
   }
 };
 
-TEST_F(Terrain, AGeoTiffHasItsPlaceAndHeightsRelativeToTheOrigin) {
+class GeoTiff : public Terrain {
+  void SetUp() override {
+    if (!HEDGEHOP_READS_TIFF) GTEST_SKIP() << "this build reads no TIFF (Debian: apt install libtiff-dev)";
+  }
+};
+
+TEST_F(GeoTiff, HasItsPlaceAndHeightsRelativeToTheOrigin) {
   worlds::OpenConfig config;
   config.added.origin_ENU = {448260.0, 5262010.0, 510.0};
   for (const uint16_t raster_type : {uint16_t{1}, uint16_t{2}}) {  // pixel is area, pixel is point
@@ -100,7 +106,7 @@ TEST_F(Terrain, AGeoTiffHasItsPlaceAndHeightsRelativeToTheOrigin) {
   }
 }
 
-TEST_F(Terrain, FeetOfAGeoTiffBecomeMeters) {
+TEST_F(GeoTiff, FeetBecomeMeters) {
   constexpr uint16_t kMeter = 9001, kFoot = 9002, kUsSurveyFoot = 9003;
   // 5 x 4 samples of 1000 in all units; the northwest corner is at east 400 and north 100.
   const auto corner_of = [this](uint16_t horizontal, uint16_t vertical) {
@@ -134,7 +140,7 @@ TEST_F(Terrain, FeetOfAGeoTiffBecomeMeters) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("its heights have the unit 9005; valid: 9001 (m)")));
 }
 
-TEST_F(Terrain, APixelScaleOfAGeoTiffIsAboveZero) {
+TEST_F(GeoTiff, ThePixelScaleIsAboveZero) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const auto& scale : std::vector<std::vector<double>>{{0.0, 4.0, 0.0}, {4.0, -4.0, 0.0}, {inf, 4.0, 0.0}}) {
     const std::string file =
@@ -145,7 +151,7 @@ TEST_F(Terrain, APixelScaleOfAGeoTiffIsAboveZero) {
   }
 }
 
-TEST_F(Terrain, SolidsHaveTheSurfaceOfTheImages) {
+TEST_F(GeoTiff, SolidsHaveTheSurfaceOfTheImages) {
   worlds::OpenConfig config;
   config.added.origin_ENU = {448260.0, 5262010.0, 510.0};
   const Scene scene = open(config, {.heightmap = write("utm.tif", georeferenced())});
@@ -169,7 +175,7 @@ TEST_F(Terrain, APngScalesFromLowToHighAroundItsMiddle) {
   EXPECT_TRUE(std::isinf(altitude_m(scene, 89.5, 0.0)));
 }
 
-TEST_F(Terrain, CellsWithoutDataAreHoles) {
+TEST_F(GeoTiff, CellsWithoutDataAreHoles) {
   cv::Mat_<float> heights(3, 3, -5.0f);
   heights(0, 0) = -9999.0f;
   const std::string text = "-9999";
@@ -180,7 +186,7 @@ TEST_F(Terrain, CellsWithoutDataAreHoles) {
   EXPECT_NEAR(altitude_m(scene, -1.0, -1.1), -5.0, 1e-5);
 }
 
-TEST_F(Terrain, ReadsCompressedTiffsOfIntegers) {
+TEST_F(GeoTiff, ReadsCompressedTiffsOfIntegers) {
   cv::Mat_<int16_t> heights(300, 40, int16_t{-12});  // several strips
   cv::imwrite((folder_ / "packed.tif").string(), heights, {cv::IMWRITE_TIFF_COMPRESSION, 5});
   const Scene scene = open({}, {.heightmap = (folder_ / "packed.tif").string(), .spacing_m = 1.0});
@@ -188,7 +194,7 @@ TEST_F(Terrain, ReadsCompressedTiffsOfIntegers) {
   EXPECT_NEAR(altitude_m(scene, -149.3, 3.3), -12.0, 1e-5);
 }
 
-TEST_F(Terrain, FaultsAreOneLine) {
+TEST_F(GeoTiff, FaultsAreOneLine) {
   const auto fails = [this](const TerrainConfig& config, const std::string& why) {
     EXPECT_THAT([&] { open({}, config); }, ThrowsMessage<std::invalid_argument>(HasSubstr(why))) << config.heightmap;
   };
@@ -200,7 +206,13 @@ TEST_F(Terrain, FaultsAreOneLine) {
   const std::string short_tiepoints =
       tiff_of(cv::Mat_<float>(4, 5, 0.0f),
               {field<double>(33550, 12, {4.0, 4.0, 0.0}), field<uint16_t>(33922, 3, {0, 0, 0, 1, 2, 0})});
-  fails({.heightmap = write("short.tif", short_tiepoints)}, "its tag 33922 has the data type 3; valid: 12");
+  fails({.heightmap = write("short.tif", short_tiepoints)},
+        "its tag ModelTiepoint has 16-bit integers; valid: 64-bit floats");
+  const std::string infinite_tiepoint =
+      tiff_of(cv::Mat_<float>(4, 5, 0.0f),
+              {field<double>(33550, 12, {4.0, 4.0, 0.0}),
+               field<double>(33922, 12, {0.0, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0, 0.0})});
+  fails({.heightmap = write("infinite.tif", infinite_tiepoint)}, "its tiepoint is not finite");
   fails({.heightmap = write("text.tif", "no image"), .spacing_m = 1.0}, "it is no PNG and no TIFF");
   std::string cut = georeferenced();
   cut.resize(60);
@@ -230,6 +242,7 @@ TEST_F(Terrain, WithoutGroundAWorldHasNoGroundTriangles) {
 }
 
 TEST_F(Terrain, TheOriginOfASceneIsThatOfItsImports) {
+  if (!HEDGEHOP_READS_MESHES) GTEST_SKIP() << "this build reads no meshes (Debian: apt install libassimp-dev)";
   const std::string file =
       write("far.obj", "v 448262 5262012 511\nv 448263 5262012 511\nv 448262 5262013 511\nf 1 2 3\n");
   worlds::OpenConfig config;

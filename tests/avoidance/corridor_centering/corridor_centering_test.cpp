@@ -85,12 +85,16 @@ TEST(CorridorCentering, PublishedLawRollsAndTurnsTowardsTheMiddle) {
   config.law = Law::published;
   const auto module = make_corridor_centering(config);
   const StraightCorridor corridor;
-  const Decision last = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8).back();
-  const auto& command = std::get<AttitudeCommand>(last.command);
-  EXPECT_NEAR(command.pitch_rad, -0.5 * std::numbers::pi / 180.0, 1e-12);
-  // The error remains 0.4, so after the first sample the controller returns kD times that value, with noise.
-  EXPECT_NEAR(command.roll_rad, 0.009 * 0.4, 0.2 * 0.02);
-  EXPECT_GT(command.heading_rad, 0.0);
+  const std::vector<Decision> decisions = fly(*module, corridor.planes(), {0, -0.5}, {0.4, 0}, 8);
+  const auto error = [&](size_t i) { return signal(*module, decisions[i], "centering_error"); };
+  const auto command = [&](size_t i) { return std::get<AttitudeCommand>(decisions[i].command); };
+  EXPECT_NEAR(error(1), 0.5 / 1.25, 0.03);
+  // The samples are 0.5 s apart. kD multiplies the error and kp its change since the sample before.
+  constexpr double kRoundOffRad = 1e-12;
+  EXPECT_NEAR(command(1).roll_rad, 0.009 * error(1), kRoundOffRad);
+  EXPECT_NEAR(command(7).roll_rad, 0.009 * error(6) + 0.2 * (error(6) - error(1)), kRoundOffRad);
+  EXPECT_NEAR(command(7).pitch_rad, -0.5 * std::numbers::pi / 180.0, kRoundOffRad);
+  EXPECT_GT(command(7).heading_rad, 0.0);
 }
 
 TEST(CorridorCentering, HoversBetweenPlainWallsWithAnyFloor) {

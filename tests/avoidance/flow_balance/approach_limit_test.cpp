@@ -19,10 +19,12 @@ TEST(ApproachLimit, AVehicleThatReactsLateAndBrakesStopsAtTheStandOff) {
   // Oracle: the stop in steps of a millisecond.
   for (const double range_m : {2.6, 3.0, 5.0, 12.0}) {
     double v_mps = closing_limit_mps(range_m, kLimit), left_m = range_m;
-    for (int ms = 0; v_mps > 0.0; ++ms) {
+    constexpr int kMaxMs = 60'000;
+    for (int ms = 0; ms < kMaxMs && v_mps > 0.0; ++ms) {
       left_m -= 1e-3 * v_mps;
       if (ms >= 1000) v_mps -= 1e-3 * kLimit.braking_mps2;
     }
+    ASSERT_LE(v_mps, 0.0) << range_m;
     EXPECT_NEAR(left_m, kLimit.stand_off_m, 0.005) << range_m;
   }
 }

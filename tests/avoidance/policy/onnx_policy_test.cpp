@@ -100,7 +100,7 @@ TEST_F(OnnxPolicy, DepthIsThatOfTheEnvironmentInWhichPoliciesAreTrained) {
   const NavigationState navigation = level_flight({0, 0, -6}, 0.4, {0.5, 0.2});
   const Goal goal{{8.0, -3.0, -7.0}, 0.0};
   for (const double far_m : {100.0, 20.0}) {
-    config.images[0].far_m = far_m;
+    if (far_m != 100.0) config.images[0].far_m = far_m;  // 100 m is the default
     const auto module = make_onnx_policy(config);
     module->reset(four_cameras(2, 25.0));
     // Sum of the four pixels: far, NaN and infinite ones have the depth `far`. Before the first image, all of them do.
@@ -123,11 +123,19 @@ TEST_F(OnnxPolicy, RejectsFilesThatAreNoNetworkInOneLine) {
   EXPECT_THAT([&] { make_onnx_policy(missing); }, ThrowsMessage<std::invalid_argument>(HasSubstr("no such file")));
   std::ofstream(file()) << "no network\n";
   EXPECT_THAT([&] { make_onnx_policy(config()); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("no network of ONNX")));
+              ThrowsMessage<std::invalid_argument>(
+                  ::testing::AllOf(HasSubstr("no network of ONNX"), ::testing::Not(HasSubstr("\n")))));
   OnnxPolicyConfig blind = config();
   blind.images.clear();
   blind.state = false;
   EXPECT_THAT([&] { make_onnx_policy(blind); }, ThrowsMessage<std::invalid_argument>(HasSubstr("'images' or 'state'")));
+}
+
+TEST_F(OnnxPolicy, AMaximumDepthIsForDepthOnly) {
+  OnnxPolicyConfig grey = config();
+  grey.images.push_back({.camera = "left", .channel = CameraNeed::Channel::color, .far_m = 100.0});
+  EXPECT_THAT([&] { make_onnx_policy(grey); },
+              ThrowsMessage<std::invalid_argument>("images.1.far: only for the channel depth"));
 }
 
 TEST_F(OnnxPolicy, RejectsNetworksWithOtherInputsAndOutputsBeforeTheFlight) {
@@ -156,6 +164,19 @@ TEST_F(OnnxPolicy, ActionThatIsNotFiniteEndsTheFlight) {
   const auto module = make_onnx_policy(config());
   EXPECT_THAT([&] { module->reset(four_cameras(kSizePx, 25.0)); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("not finite")));
+
+  // Finite before the flight, with inputs of 0; a white image overflows a float.
+  offset[2] = 0.3f;
+  weights.assign(weights.size(), 3e38f);
+  write();
+  const auto overflowing = make_onnx_policy(config());
+  overflowing->reset(four_cameras(kSizePx, 25.0));
+  const std::vector<CameraFrame> white{{"front", 0, cv::Mat(kSizePx, kSizePx, CV_8UC1, cv::Scalar(255))}};
+  EXPECT_THAT(
+      [&] {
+        overflowing->update({0, white, level_flight({0, 0, -6}, 0.0, {0, 0}), {{8.0, 0.0, -6.0}, 0.0}});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("not finite")));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -209,7 +210,8 @@ TEST(SectionGridModule, PublishedLawContinuesOrTurnsThenMovesOrHovers) {
 TEST(SectionGridModule, RejectsValuesOutOfRangeAndNamesTheKey) {
   SectionGridConfig config;
   config.threshold_m = 0.0;
-  EXPECT_THROW(make_section_grid(config), std::invalid_argument);
+  EXPECT_THAT([&] { make_section_grid(config); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("threshold: must be > 0 m, got 0")));
 }
 
 TEST(SectionGridModule, NeverDescendsBelowItsMinimumAltitude) {

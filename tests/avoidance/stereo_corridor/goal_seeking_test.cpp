@@ -42,7 +42,9 @@ TEST(TurnBack, TurnsToAPassedGoalUntilItIsAhead) {
     EXPECT_GT(std::hypot(north_m - 20.0, 30.0), 30.3);
     EXPECT_LT(std::hypot(north_m - 20.0, 30.0), 30.4);
     double heading_rad = 0.0;
-    while (turns(turn_back, goal, {north_m, 0.0}, heading_rad)) heading_rad += side * 0.01;
+    while (std::abs(heading_rad) < 2.0 * M_PI && turns(turn_back, goal, {north_m, 0.0}, heading_rad)) {
+      heading_rad += side * 0.01;
+    }
     EXPECT_NEAR(heading_rad, side * (M_PI / 2.0 + std::atan2(north_m - 20.0, 30.0) - std::atan(0.2)), 0.02);
   }
 }
@@ -91,7 +93,7 @@ TEST(TurnBack, SuccessfulTurnResetsTheDistance) {
   for (const double aside_m : {9.0, 6.0, 0.0}) {
     EXPECT_FALSE(turn_back.update({0.0, 0.0, 20.0}, {}));
     double passed_m = -10.0;
-    while (!turn_back.update({aside_m, 0.0, -passed_m}, {})) passed_m += 0.1;
+    while (passed_m < 20.0 && !turn_back.update({aside_m, 0.0, -passed_m}, {})) passed_m += 0.1;
     // One meter behind and 0.3 m farther than the minimum distance.
     EXPECT_NEAR(passed_m, std::max(1.0, std::sqrt(0.09 + 0.6 * aside_m)), 0.11) << aside_m;
   }

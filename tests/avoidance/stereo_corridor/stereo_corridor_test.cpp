@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "avoidance/contract.h"
 #include "tests/avoidance/flow_balance/flow_rig.h"
 
 namespace hedgehop::avoidance::stereo_corridor {
@@ -197,11 +198,7 @@ TEST(StereoCorridor, ModifiedLawWithoutAdditionsEqualsThePublishedLaw) {
   for (int i = 0; i < 5; ++i) {
     const double east_m = -2.0 + i;
     const Decision modified = a.see({wall(14.0, east_m, M_PI, 4.0)}), paper = b.see({wall(14.0, east_m, M_PI, 4.0)});
-    EXPECT_EQ(modified.status, paper.status);
-    EXPECT_EQ(modified.command.index(), paper.command.index());
-    for (size_t k = 0; k < modified.signals.size(); ++k) {
-      EXPECT_TRUE(modified.signals[k] == paper.signals[k] || std::isnan(paper.signals[k]));
-    }
+    contract::expect_same({modified}, {paper});
   }
 }
 

@@ -40,6 +40,8 @@ TEST(HelicopterRefusals, NameTheInvalidValue) {
               HasSubstr("tail_rotor.chord: must be > 0 m, got -0.1"));
   EXPECT_THAT(refusal([](C& c) { c.tail_rotor.gear_ratio = 0.0; }), HasSubstr("tail_rotor.gear_ratio"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.hinge_offset_m = 0.5; }), HasSubstr("hinge_offset"));
+  EXPECT_THAT(refusal([](C& c) { c.hull.fuselage_size_m.x() = 3.0; }),
+              HasSubstr("the fuselage must end before the tail"));
 }
 
 TEST(HelicopterRefusals, NameTheFaultOfAServo) {

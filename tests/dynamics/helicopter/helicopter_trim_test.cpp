@@ -187,19 +187,5 @@ TEST(Vehicle, ReportsADescentIntoItsOwnWake) {
   EXPECT_FALSE(vehicle.within_validity());
 }
 
-TEST(Vehicle, RefusesVehiclesThatCannotHover) {
-  const auto refused = [](auto change) {
-    HelicopterConfig config;
-    change(config);
-    EXPECT_THROW(Vehicle{VehicleConfig{config}}, std::invalid_argument);
-  };
-  refused([](HelicopterConfig& c) { c.mass.mass_kg = 80.0; });  // more than the rotor can lift
-  refused([](HelicopterConfig& c) { c.servos.tail.highest_rad = 0.1; });
-  refused([](HelicopterConfig& c) { c.servos.cyclic.lowest_rad = 0.2; });
-  refused([](HelicopterConfig& c) { c.main_rotor.hinge_offset_m = 0.5; });
-  refused([](HelicopterConfig& c) { c.hull.fuselage_size_m.x() = 3.0; });
-  refused([](HelicopterConfig& c) { c.main_rotor.radius_m = 0.0; });
-}
-
 }  // namespace
 }  // namespace hedgehop::dynamics::helicopter

@@ -91,11 +91,5 @@ TEST(Servo, ReachesItsTargetAtTheRateLimit) {
   EXPECT_NEAR(s.position_rad, 0.1, 1e-9);
 }
 
-TEST(Servo, RefusesStopsOutOfOrder) {
-  ServoConfig servo;
-  servo.lowest_rad = 0.2;
-  EXPECT_THROW(check(servo), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace hedgehop::dynamics::helicopter

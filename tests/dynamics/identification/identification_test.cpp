@@ -114,7 +114,7 @@ TEST(IdentifiedResponse, SeparatesTwoInputsOfAnUnstableSystemWithFeedback) {
 /// On-axis responses: w, p, q and r to the controls in their order.
 constexpr std::array<Eigen::Index, 4> kOnAxis = {2, 3, 4, 5};
 
-TEST(Identify, FindsTheLinearModelOfAHelicopterInTheFullModel) {
+TEST(Identification, FindsTheLinearModelOfAHelicopterInTheFullModel) {
   for (const double speed_mps : {0.0, 12.0}) {
     const auto found = identify(helicopter::HelicopterConfig{}, {.v_air_W = {speed_mps, 0.0, 0.0}});
     ASSERT_TRUE(found);
@@ -126,7 +126,7 @@ TEST(Identify, FindsTheLinearModelOfAHelicopterInTheFullModel) {
   }
 }
 
-TEST(Identify, FindsTheLinearModelOfAMulticopterInTheFullModel) {
+TEST(Identification, FindsTheLinearModelOfAMulticopterInTheFullModel) {
   const auto found = identify(multicopter::MulticopterConfig{}, {});
   ASSERT_TRUE(found);
   for (Eigen::Index input = 0; input < kControlAxes; ++input) {

@@ -43,7 +43,7 @@ class Objects(MapCase):
         names = [f"way {number}" for number in bad] + [f"node {file.node(-60, 60, BUILDING)}"]
         for path in ("faulty.osm", "faulty.osm.pbf"):
             lines = self.expect(file, names, path)
-            self.assertIn("4 buildings", lines[0].replace("5 buildings", "4 buildings"))
+            self.assertIn(": 4 buildings on ", lines[0])
             self.assertIn(f"way {triangle}: its outline is open", lines)
 
     def test_relations(self):

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenes/mesh/mesh_import.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::scenes::mesh {
 
@@ -19,14 +20,6 @@ namespace hedgehop::scenes::mesh {
 class ImportedFiles : public testing::Test {
  protected:
   static constexpr int kSizePx = 64;
-
-  void SetUp() override {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
@@ -41,7 +34,8 @@ class ImportedFiles : public testing::Test {
     return scene;
   }
 
-  std::filesystem::path folder_;
+  const sim::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
   std::vector<std::string> lines_;  ///< of the last import
 };
 

@@ -59,6 +59,7 @@ TEST_F(MeshFormats, TheWallOfACavityStaysVisibleFromInside) {
   EXPECT_NEAR(cast(scene, {-10.0, 0.1, 0.2}, Vector3d::UnitX()).distance_m, 7.0, 1e-5);
 }
 
+// Compares the search in a tree with a comparison of all pairs. It does not protect the speed.
 TEST(FacingOfFaces, AnInwardCubeIsACavityIfAnOutwardCubeContainsIt) {
   constexpr int kCubes = 400;
   std::mt19937_64 random(5);

@@ -198,8 +198,9 @@ TEST_P(EveryMesh, SurfaceAgreesWithTheSolids) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   constexpr double kMaxCoordinateM = 1000.0;  // the ground's mesh is finite, its plane is not
+  constexpr int kRays = 400, kMaxTries = 200'000;
   int compared = 0;
-  while (compared < 400) {
+  for (int i = 0; i < kMaxTries && compared < kRays; ++i) {
     const Eigen::Vector2d half = 0.5 * scene_.bounds_NE_m.sizes();
     const Eigen::Vector3d from_W(half.x() * share(random), half.y() * share(random), -1.45 + share(random));
     const Eigen::Vector3d ray_W = Eigen::Vector3d(share(random), share(random), share(random)).normalized();
@@ -219,6 +220,7 @@ TEST_P(EveryMesh, SurfaceAgreesWithTheSolids) {
     ASSERT_TRUE(front);
     ++compared;
   }
+  ASSERT_EQ(compared, kRays);
 }
 
 // Singular values of the map from a face to its texture, in repeats per tile; 1 without stretching.

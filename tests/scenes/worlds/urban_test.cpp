@@ -81,7 +81,16 @@ TEST(Urban, BuildingsAreAtLeastTheMinimumStreetWidthApart) {
   }
 }
 
-TEST(Urban, DefaultStreetsAreAtLeastEightMetersWide) { EXPECT_GE(UrbanConfig{}.street_min_width_m, 8.0); }
+TEST(Urban, DefaultStreetsAreAtLeastEightMetersWide) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const UrbanPlan plan = plan_urban(UrbanConfig{}, seed);
+    ASSERT_GT(plan.buildings.size(), 1u);
+    for (size_t i = 0; i < plan.buildings.size(); ++i) {
+      for (size_t j = i + 1; j < plan.buildings.size(); ++j)
+        ASSERT_GE(plan_gap(plan.buildings[i].boxes_W[0], plan.buildings[j].boxes_W[0]), 8.0 - 1e-9) << seed;
+    }
+  }
+}
 
 TEST(Urban, ClearingsAreFreeForEverySeed) {
   const UrbanConfig config;

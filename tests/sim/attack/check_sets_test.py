@@ -1,5 +1,5 @@
-"""Random sets of checks at their bounds. The value of each check is computed here from the tables of the flight; text, JSON,
-exit status, JUnit file, CSV file and pages must have its verdict."""
+"""Random sets of checks at their bounds. The value of each check is computed here from the table of the flight; clearances, metrics
+and the time of arrival come from result.json. Text, JSON, exit status, JUnit file, CSV file and pages must have its verdict."""
 
 import json
 import math
@@ -25,7 +25,7 @@ def base(kind):
 
 
 def measured(flight):
-    """Returns {check: (value, direction)} from the tables."""
+    """Returns {check: (value, direction)} from the table and the result."""
     rows, result = flight.rows, flight.result
 
     def nearest(kind):

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/config/whole_file.h"
@@ -36,6 +38,19 @@ inline std::string lasting_columns(const std::string& csv) {
     kept += line.substr(0, end) + "\n";
   }
   return kept;
+}
+
+/// Returns JSON without the fields that differ from run to run.
+inline nlohmann::ordered_json lasting_fields(nlohmann::ordered_json json) {
+  for (auto field = json.begin(); json.is_object() && field != json.end();) {
+    const std::string& key = field.key();
+    const bool differs = key.ends_with("_ms") || key == "realtime_factor" || key == "wall_s";
+    field = differs ? json.erase(field) : std::next(field);
+  }
+  for (auto& part : json) {
+    if (part.is_structured()) part = lasting_fields(std::move(part));
+  }
+  return json;
 }
 
 /// A folder with a scenario of 0.1 s, and the built program that flies it.

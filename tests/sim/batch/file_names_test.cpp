@@ -57,6 +57,10 @@ TEST(FileName, WithADashAtTheBeginningIsNoOption) {
         "run ./-dash.yaml --out out", "validate -- -dash.yaml", "batch . --out ./-out"}) {
     const CommandEnd end = folder.hedgehop(arguments);
     EXPECT_EQ(end.status, 0) << arguments << ": " << end.err << end.out;
+    if (arguments.starts_with("batch ./-dash.yaml")) {
+      EXPECT_THAT(folder.json("out/batch.json").at("flights").at(0).at("command").get<std::string>(),
+                  HasSubstr("hedgehop run ./-dash.yaml --seed"));
+    }
     folder.shell("rm -rf out");
   }
 }

@@ -68,6 +68,28 @@ TEST(Judge, PassedComparisonWithAnEarlierBatchDoesNotRuleOutALoss) {
               HasSubstr("probability 1.000, so a loss is not shown; 'margin' can rule one out"));
 }
 
+TEST(Judge, RefusedFileOfAnEarlierBatchIsNoFlight) {
+  const TemporaryFolder folder;
+  write_file_whole(
+      folder.path() / "batch.json",
+      R"({"groups": [], "flights": [{"id": "city/bad", "group": "city", "status": "failed", "passed": false}]})");
+  const NoWorseCheck check{.than = (folder.path() / "batch.json").string()};
+  EXPECT_THAT(judge({check}, {{.group = "city", .success = {.successes = 3, .trials = 3}}}).at(0).words,
+              HasSubstr("no flights to compare: 3 now, 0 in "));
+}
+
+TEST(Summarize, RefusedOrdersAreNoTrials) {
+  std::vector<FlightRecord> records(3);
+  for (FlightRecord& record : records) record.status = FlightRecord::Status::failed;
+  records[0].order.id = "city/bad";  // as read from a table
+  records[1].order.fault = "city.yaml:3:1: unknown key 'foo'";
+  const GroupSummary group = summarize(records).at(0);
+  EXPECT_EQ(group.flights, 3);
+  EXPECT_EQ(group.failed, 3);
+  EXPECT_EQ(group.success.trials, 1);
+  EXPECT_EQ(without_refused(records).size(), 1u);
+}
+
 TEST(VerdictOf, IsOneDecisionForEveryRecord) {
   const auto record = [](Outcome outcome, std::vector<CheckResult> checks) {
     FlightRecord flown{.status = FlightRecord::Status::flown};

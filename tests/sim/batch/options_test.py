@@ -14,18 +14,9 @@ import sys
 import tempfile
 import unittest
 
+from tiny_scenario import tiny_scenario
+
 PROGRAM, SOURCE = sys.argv[1:3]
-TINY = f"""use: {SOURCE}/configs/garratt2009_room_0_light.yaml
-name: NAME
-duration: 0.1
-scene: {{texture_size: 64}}
-velocimeter: {{enabled: false}}
-drawing: {{renderer: tiles}}
-rig: {{cameras: [{{role: front, width: 16, height: 16, fov: 90, rate: 25, channel: grey}}]}}
-avoidance: {{module: go_to_goal}}
-goal: {{north: 5, east: 0, altitude: 1, radius: 1}}
-checks: [{{check: no_collision}}]
-"""
 SWEEP = """scenario: scenarios/a.yaml
 seeds: 1:3
 parameters: [{path: avoidance.speed, from: 0.5, to: 2, count: 20}]
@@ -38,7 +29,7 @@ class Program(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name)
         for file in ("a.yaml", "b.yml", "sub/c.yaml"):
-            self.write(f"scenarios/{file}", TINY.replace("NAME", pathlib.Path(file).stem))
+            self.write(f"scenarios/{file}", tiny_scenario(SOURCE, pathlib.Path(file).stem))
         self.write("sweep.yaml", SWEEP)
 
     def write(self, file, text):
@@ -87,8 +78,8 @@ class Validate(Program):
         self.assertFalse((self.folder / "out").exists())
 
     def test_each_error_has_its_place(self):
-        self.write("scenarios/b.yml", TINY + "duratoin: 3\n")
-        self.write("scenarios/inside.yaml", TINY + "start: {altitude: 0.01}\n")
+        self.write("scenarios/b.yml", tiny_scenario(SOURCE, "b") + "duratoin: 3\n")
+        self.write("scenarios/inside.yaml", tiny_scenario(SOURCE, "inside") + "start: {altitude: 0.01}\n")
         end = self.hedgehop("validate scenarios", status=2)
         self.assertRegex(end.stderr, r"b\.yml:\d+:1: unknown key 'duratoin'")
         self.assertIn("collides at the start", end.stderr)
@@ -229,6 +220,14 @@ class SweepOptions(Program):
         self.assertRegex(array, r"^--parsable \S+array.sh$")
         self.assertRegex(merge, r"^--parsable --dependency=afterany:4711 \S+merge.sh$")
 
+    def test_the_number_of_a_slurm_job_is_on_the_last_line(self):
+        self.write("bin/sbatch", "#!/bin/sh\necho 'Welcome to the cluster'\necho 4711\necho\n").chmod(0o755)
+        end = self.hedgehop("sweep sweep.yaml --on slurm", before=["env", f"PATH={self.folder}/bin:/usr/bin:/bin"])
+        self.assertIn("submitted: job 4711;", end.stdout)
+        self.write("bin/sbatch", "#!/bin/sh\necho accepted\n").chmod(0o755)
+        end = self.hedgehop("sweep sweep.yaml --on slurm", status=3, before=["env", f"PATH={self.folder}/bin:/usr/bin:/bin"])
+        self.assertRegex(end.stderr, r"array.sh printed no job number, so the job may be submitted: accepted\n$")
+
     def test_a_slurm_job_is_the_whole_sweep(self):
         for part in ("--missing", "--merge", "--shard 1/2"):
             end = self.hedgehop(f"sweep sweep.yaml --on slurm --dry-run {part}", status=2)
@@ -243,7 +242,7 @@ class MissedGoals(Program):
         self.assertTrue(json.loads((self.folder / "out/result.json").read_text())["goal_missed_unchecked"])
         batch = self.hedgehop("batch scenarios --out all")
         self.assertIn("warning: 2 of 2 flights timed out before the goal, and no check requires the goal", batch.stderr)
-        self.write("scenarios/a.yaml", TINY.replace("no_collision", "reached_goal"))
+        self.write("scenarios/a.yaml", tiny_scenario(SOURCE, "a", "[{check: reached_goal}]"))
         end = self.hedgehop("run scenarios/a.yaml --no-video --no-report --out out", status=1)
         self.assertNotIn("warning", end.stderr)
 

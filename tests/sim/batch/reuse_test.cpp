@@ -32,13 +32,16 @@ TEST(Reuse, TwoCommandsCannotWriteIntoOneFolder) {
   EXPECT_EQ(folder.hedgehop("batch tiny.yaml --out torn").status, 0);
 }
 
-TEST(Reuse, AFileNameThatBeginsLikeAnOptionIsAFile) {
+/// The second batch reuses the flights of the first one. A failed check is a result, too.
+TEST(Reuse, ResumeFliesOnlyFlightsWithoutAResult) {
   const CampaignFolder folder;
-  folder.write("-dash.yaml", folder.read("tiny.yaml"));
-  const CommandEnd end = folder.hedgehop("batch ./-dash.yaml --out out");
-  EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_THAT(folder.json("out/batch.json")["flights"][0]["command"].get<std::string>(),
-              HasSubstr("hedgehop run ./-dash.yaml --seed"));
+  const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
+  const std::string command =
+      "batch tiny.yaml --set 'checks=[{check: reached_goal}]' --out out -j 1 --program " + worker;
+  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:2").status, 1);
+  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:4 --resume").status, 1);
+  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n4\n");
+  EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(4));
 }
 
 TEST(Reuse, AChangedScenarioIsFlownAgain) {

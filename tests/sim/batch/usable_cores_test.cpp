@@ -55,7 +55,8 @@ TEST(UsableCores, AreNoMoreThanTheAffinity) {
     cpu_set_t one;
     ASSERT_EQ(sched_getaffinity(0, sizeof(one), &one), 0);
     int first = 0;
-    while (!CPU_ISSET(first, &one)) ++first;
+    while (first < CPU_SETSIZE && !CPU_ISSET(first, &one)) ++first;
+    ASSERT_LT(first, CPU_SETSIZE);
     CPU_ZERO(&one);
     CPU_SET(first, &one);
     ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/cli/exit_status.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-constexpr int kBadInput = 2;
 
 class BadFile : public testing::Test {
  protected:
@@ -42,6 +41,8 @@ TEST_F(BadFile, RejectsPipesDevicesFoldersAndHugeFilesAsScenarios) {
   refused("huge.yaml", "huge.yaml: is larger than 64 MB");
   folder.write("uses.yaml", "use: pipe\n");
   refused("uses.yaml", "uses.yaml:1:6: is a device or a pipe, not a file: 'pipe'");
+  folder.shell("ln -s loop loop");
+  refused("loop", "loop: cannot be read: Too many levels of symbolic links");
   folder.write("vehicle.yaml", "use: gone.yaml\nmass: {mass: 1}\nmain_rotor: {radius: 1}\n");
   const CommandEnd vehicle = folder.hedgehop("validate vehicle.yaml");
   EXPECT_EQ(vehicle.err, "vehicle.yaml:1:6: there is no such file: 'gone.yaml'\n");
@@ -86,6 +87,7 @@ TEST_F(BadFile, NamesTheKindOfAFileOfAnotherKind) {
                                           {"rigs/local_map.yaml", "a rig"},
                                           {"papers/zingg2010.yaml", "a paper"},
                                           {"campaigns/failures.yaml", "a campaign"},
+                                          {"campaigns/leaderboard.yaml", "a campaign"},
                                           {"sweeps/garratt2009_room_gains.yaml", "a sweep"},
                                           {"falsify/gps_offset.yaml", "a sweep or a search"}}) {
     const CommandEnd end = run(configs + file);
@@ -93,6 +95,15 @@ TEST_F(BadFile, NamesTheKindOfAFileOfAnotherKind) {
     EXPECT_THAT(end.err, HasSubstr("is not a scenario but " + kind)) << end.err;
     EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
   }
+}
+
+TEST_F(BadFile, ListsTheKindsOfFilesIfItIsOfNone) {
+  folder.write("runs.yaml", "description: a wrong word\nruns: [{scenario: tiny.yaml, seeds: 1:3}]\n");
+  const CommandEnd end = run("runs.yaml");
+  EXPECT_EQ(end.status, kBadInput);
+  EXPECT_THAT(end.err, HasSubstr("runs.yaml:1:1: is no file of Hedgehop"));
+  EXPECT_THAT(end.err, HasSubstr("a campaign (flights or leaderboard)"));
+  EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
 }
 
 TEST_F(BadFile, RejectsHugeDocumentsBeforeReadingThem) {
@@ -147,7 +158,9 @@ TEST_F(BadFile, RejectsPipesAndOtherFormatsNamedByAMesh) {
   refused(with("piped.gltf"), "buffer' is not a regular file of at most 256 MB");
   refused(with("faces.obj"), "it has more than 2000000 triangles");
   refused(with("chain.gltf"), "it has no triangles");
-  refused(with("deep.fbx"), "its suffix is not .obj, .gltf, .glb, .dae, .ply or .stl");
+  refused(with("deep.fbx"),
+          "its suffix '.fbx' is unknown; valid: .obj, .gltf, .glb, .dae, .ply, .stl; of a world: .sdf, .world\n");
+  refused(with("deep.fbx"), "'scene.imports.0.file': '");
   for (const char* name : {"deep.obj", "deep.gltf", "deep.glb"}) refused(with(name), std::string(name) + "': ");
 }
 
@@ -189,13 +202,16 @@ TEST_F(BadFile, ReportsAnUnwritableFolderBeforeTheFlight) {
   const CommandEnd end = folder.hedgehop("run tiny.yaml --no-video --out file/below");
   EXPECT_EQ(end.status, kBadInput);
   EXPECT_THAT(end.err, AllOf(HasSubstr("file/below: cannot write results"), HasSubstr("Not a directory")));
+  folder.shell("ln -s missing link");
+  EXPECT_THAT(folder.hedgehop("run tiny.yaml --out link/below").err,
+              HasSubstr("/link: is a link to a missing folder\n"));
   ASSERT_EQ(folder.hedgehop("run tiny.yaml --no-video --no-report --out flown").status, 0);
   for (const std::string& command :
        {std::string("run tiny.yaml --out /proc/nope"), "batch tiny.yaml --seeds 3 --out " + std::string(300, 'x'),
         std::string("export flown --format euroc --out file"),
         std::string("export flown --format tum --out /proc/nope"),
         std::string("batch tiny.yaml --seeds 3 --out out --junit file/below.xml"),
-        std::string("batch tiny.yaml --seeds 3 --out out --junit flown"),
+        std::string("batch tiny.yaml --seeds 3 --out out --junit flown"), std::string("run tiny.yaml --out link/below"),
         std::string("render tiny.yaml --camera front -o file/below.png")}) {
     const CommandEnd refusal = folder.hedgehop(command);
     EXPECT_EQ(refusal.status, kBadInput) << command << ": " << refusal.err;

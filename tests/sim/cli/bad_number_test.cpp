@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -16,7 +17,8 @@ using testing::HasSubstr;
 const std::string kScenario = HEDGEHOP_SOURCE_DIR "/configs/andert2007_tree_160.yaml";
 
 TEST(NumberOptions, RejectIntegerOverflowAndNonFiniteNumbers) {
-  const std::string out = " --out " + testing::TempDir() + "/bad_number";
+  const TemporaryFolder folder;
+  const std::string out = " --out " + folder.path().string() + "/out";
   for (const std::string option : {"--seed -1", "--seed 18446744073709551616", "--seed 1.5", "--seed 0x10"}) {
     const Answer answer = ask("run " + kScenario + out + " " + option);
     EXPECT_EQ(answer.status, kBadInput) << option;
@@ -63,27 +65,36 @@ TEST(Options, AScenarioMayFollowSet) {
 }
 
 TEST(NumberOptions, ReadDecimally) {
+  const TemporaryFolder folder;
   const Answer answer =
       ask("run " + kScenario +
           " --seed 010 --set duration=0.02 --set 'checks=[]' --renderer tiles --no-video --json --out " +
-          testing::TempDir() + "/decimal_number");
+          folder.path().string() + "/out");
   EXPECT_THAT(answer.text, HasSubstr("\"seed\": 10,"));
 }
 
 TEST(Options, ThatWouldHaveNoEffectAreRefused) {
+  const TemporaryFolder folder;
   const std::string vehicle = HEDGEHOP_SOURCE_DIR "/configs/vehicles/hummingbird.yaml";
   const std::string sweep = "sweep " HEDGEHOP_SOURCE_DIR "/configs/sweeps/garratt2009_room_gains.yaml ";
   const std::string fit = "identify " + vehicle + " --log x.csv --fit rotor.drag=0:1 ";
   const std::vector<std::pair<std::string, std::string>> refused = {
       {"batch " + kScenario + " --margin 0.1", "--no-worse-than"},
       {sweep + "--tasks 4", "--on"},
+      {sweep + "--on local --tasks 4", "--tasks is for --on slurm"},
+      {sweep + "--on local --slurm-option=--x", "--slurm-option is for --on slurm"},
+      {sweep + "--missing --junit j.xml", "no --junit"},
+      {sweep + "--missing --dry-run", "no --merge or --missing"},
+      {sweep + "--merge --dry-run", "no --merge or --missing"},
       {sweep + "--missing --merge", "--merge"},
-      {sweep + "--from out", "--merge"},
+      {sweep + "--from .", "--from is for --merge or --missing"},
+      {"run " + kScenario + " --bind 127.0.0.1", "--bind: the scenario has no link"},
       {fit + "--plot x.html", "--plot"},
       {fit + "--csv", "--csv"},
       {fit + "--size 1deg", "--size"},
       {fit + "--speed 3", "--speed"},
-      {"dataset " + kScenario + " --out " + testing::TempDir() + "/none --images 1 --tilt nan", "'nan' is no finite"}};
+      {"dataset " + kScenario + " --out " + folder.path().string() + "/out --images 1 --tilt nan",
+       "'nan' is no finite"}};
   for (const auto& [command, words] : refused) {
     const Answer answer = ask(command);
     EXPECT_EQ(answer.status, kBadInput) << command;

@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <sstream>
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -16,17 +16,14 @@ using testing::HasSubstr;
 
 const std::string kConfigs = HEDGEHOP_SOURCE_DIR "/configs/";
 
-/// A vehicle file with one changed text. Each test has its own file because tests run in parallel.
-std::string changed(const std::string& name, const std::string& vehicle, const std::string& from,
-                    const std::string& to) {
+/// Returns a vehicle file with one changed text.
+std::string changed(const std::string& vehicle, const std::string& from, const std::string& to) {
   std::ifstream stream(kConfigs + "vehicles/" + vehicle + ".yaml");
   std::string text = (std::ostringstream() << stream.rdbuf()).str();
   const size_t place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from << " is not in " << vehicle;
   if (place != std::string::npos) text.replace(place, from.size(), to);
-  const auto file = std::filesystem::path(testing::TempDir()) / ("bad_vehicle_" + name + ".yaml");
-  std::ofstream(file) << text;
-  return file.string();
+  return text;
 }
 
 struct Bad {
@@ -37,10 +34,12 @@ class BadVehicle : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadVehicle, IsRejectedInOneLineWithTheReason) {
   const Bad& bad = GetParam();
-  const std::string file = changed(bad.name, bad.vehicle, bad.from, bad.to);
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "vehicle.yaml";
+  std::ofstream(file) << changed(bad.vehicle, bad.from, bad.to);
   for (const std::string& command : {"trim " + file, "linearize " + file,
                                      "run " + kConfigs + "garratt2009_room_0_light.yaml --no-video --set vehicle.use=" +
-                                         file + " --out " + testing::TempDir() + "/bad_vehicle_" + bad.name}) {
+                                         file + " --out " + folder.path().string() + "/out"}) {
     const Answer answer = ask(command);
     EXPECT_EQ(answer.status, kBadInput) << command;
     EXPECT_THAT(answer.text, HasSubstr(bad.reason)) << command;

@@ -170,6 +170,8 @@ class Fields(unittest.TestCase):
             (("flightmare", self.write("c.csv", STATIC.replace("rpg_box01", "rpg_gate"))), "prefab 'rpg_gate' is unknown; valid: rpg_box01"),
             (("flightmare", self.write("d.yaml", DYNAMIC.replace("N: 2", "N: 3"))), "N is 3, but the file has 2 objects"),
             (("flightmare", self.write("f.yaml", DYNAMIC.replace("true", "yes"))), "f.yaml:3:35: expected true or false, got 'yes'"),
+            (("sdf", self.write("s.yaml", STATIC)), "s.yaml: the suffix is unknown; valid: .sdf, .world\n"),
+            (("sdf", self.folder / "none.world"), "none.world: there is no such file\n"),
             (("flightmare", self.write("e.yaml", DYNAMIC)), "turning.csv': line 1: expected 8 values"),
         ]
         for arguments, fault in cases:

@@ -1,27 +1,25 @@
 // The pace of a flight: `hedgehop run --pace`.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
 /// Returns the trajectory hash of a short flight. @param options  further options.
 std::string hash_of_run(const std::string& options) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("pace_option_" + std::to_string(::getpid()));
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
   const Answer answer = ask("run " HEDGEHOP_SOURCE_DIR
                             "/configs/andert2007_tree_160.yaml --renderer tiles --set duration=1 --set 'checks=[]' "
                             "--no-report --no-video --out " +
-                            folder.string() + " " + options);
+                            folder.path().string() + " " + options);
   EXPECT_EQ(answer.status, 0) << answer.text;
-  std::ifstream file(folder / "result.json");
+  std::ifstream file(folder.path() / "result.json");
   return nlohmann::json::parse(file).at("trajectory_hash");
 }
 

@@ -6,9 +6,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <filesystem>
 #include <regex>
 #include <string>
+
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -32,13 +33,13 @@ std::string on_terminal(const std::string& command, unsigned short columns) {
 }
 
 TEST(Progress, LineOfAFlightFitsANarrowTerminalAndShowsTheRemainingTime) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "progress";
+  const TemporaryFolder folder;
   const std::string command =
       HEDGEHOP_PROGRAM
       " run " HEDGEHOP_SOURCE_DIR
       "/configs/andert2007_tree_160.yaml --renderer tiles --set name=a_name_that_is_longer_than_the_line "
       "--set duration=3 --set 'checks=[]' --no-report --no-video --json --out " +
-      folder.string() + " >/dev/null";
+      folder.path().string() + "/out >/dev/null";
   EXPECT_THAT(on_terminal(command, 200), testing::ContainsRegex(": [0-9]+ of [0-9]+ s, at most [0-9]+ s left"));
   const std::string narrow = on_terminal(command, 50);
   const std::regex redrawn("\r\033\\[K([^\r\n]*)");

@@ -1,7 +1,6 @@
 // The choice of the renderer by the scenario and by the command line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 #include "tests/sim/render/osmesa.h"
 
 namespace hedgehop::sim::cli {
@@ -25,11 +25,11 @@ class RendererOption : public testing::Test {
 
   /// Returns the text that `hedgehop run` prints for a short flight. @param options  further options.
   std::string printed_by_run(const std::string& options) {
-    std::filesystem::remove_all(folder_);
+    std::filesystem::remove_all(out_);
     const Answer answer = ask("run " HEDGEHOP_SOURCE_DIR
                               "/configs/andert2007_tree_160.yaml --set duration=0.1 --set 'checks=[]' --no-report "
                               "--no-video --out " +
-                              folder_.string() + " " + options);
+                              out_.string() + " " + options);
     EXPECT_EQ(answer.status, 0) << answer.text;
     return answer.text;
   }
@@ -38,12 +38,12 @@ class RendererOption : public testing::Test {
   std::string resolved(const std::string& options) {
     printed_by_run(options);
     std::ostringstream text;
-    text << std::ifstream(folder_ / "scenario.yaml").rdbuf();
+    text << std::ifstream(out_ / "scenario.yaml").rdbuf();
     return text.str();
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / ("renderer_option_" + std::to_string(::getpid()));
+  const TemporaryFolder folder_;
+  const std::filesystem::path out_ = folder_.path() / "out";
 };
 
 TEST_F(RendererOption, CommandLineOverridesTheScenarioWhoseDefaultIsOsmesa) {
@@ -57,12 +57,12 @@ TEST_F(RendererOption, EnvironmentVariableHasNoEffectAndOneLineNamesTheOption) {
   HEDGEHOP_REQUIRE_OSMESA();
   setenv("HEDGEHOP_GL", "tiles", 1);
   EXPECT_THAT(resolved(""), HasSubstr("renderer: osmesa"));
-  EXPECT_THAT(printed_by_run(""), StartsWith("HEDGEHOP_GL has no effect any more: use --renderer, or "
+  EXPECT_THAT(printed_by_run(""), StartsWith("warning: HEDGEHOP_GL has no effect any more: use --renderer, or "
                                              "drawing.renderer in the scenario\n"));
 }
 
 TEST_F(RendererOption, FormerOptionStillWorksAndPrintsItsNewName) {
-  EXPECT_THAT(printed_by_run("--gl tiles"), StartsWith("--gl is deprecated: use --renderer\n"));
+  EXPECT_THAT(printed_by_run("--gl tiles"), StartsWith("warning: --gl is deprecated: use --renderer\n"));
   EXPECT_THAT(resolved("--gl tiles"), HasSubstr("renderer: tiles"));
   EXPECT_EQ(ask("render --info --gl tiles --renderer osmesa").status, kBadInput);
   EXPECT_THAT(ask("render --help").text, Not(HasSubstr("Excludes: \n")));  // without the name of the former option

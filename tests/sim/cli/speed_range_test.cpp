@@ -31,5 +31,12 @@ TEST(SpeedRange, RejectsOtherTexts) {
   }
 }
 
+TEST(SpeedRange, StatesTheMaximumNumberOfSpeeds) {
+  EXPECT_EQ(speed_range("0:10:0.001").size(), 10001U);
+  EXPECT_THAT(
+      [] { speed_range("0:20:0.001"); },
+      testing::ThrowsMessage<InputError>("--speed 0:20:0.001: 20001 speeds; valid: at most 10001; use a larger STEP"));
+}
+
 }  // namespace
 }  // namespace hedgehop::sim::cli

@@ -6,31 +6,25 @@
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr int kInternalError = 3;
-
-std::string short_run(const std::string& folder) {
+std::string short_run(const std::filesystem::path& out) {
   return "run " HEDGEHOP_SOURCE_DIR
          "/configs/andert2007_tree_160.yaml --renderer tiles --set duration=0.1 --set 'checks=[]' --no-report "
          "--no-video --out " +
-         folder;
-}
-
-std::string fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("streams_" + name);
-  std::filesystem::remove_all(folder);
-  return folder.string();
+         out.string();
 }
 
 TEST(Streams, ResultThatCannotBeWrittenIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const TemporaryFolder folder;
   for (const std::string& command : {std::string("list modules"), std::string("schema"), std::string("--version"),
-                                     std::string("run --help"), short_run(fresh_folder("full")) + " --json"}) {
+                                     std::string("run --help"), short_run(folder.path() / "out") + " --json"}) {
     const Answer answer = ask(command + " 2>&1 >/dev/full #");
     EXPECT_EQ(answer.status, kInternalError) << command;
     EXPECT_TRUE(answer.text.ends_with("hedgehop: cannot write to standard output: No space left on device\n"))
@@ -39,10 +33,12 @@ TEST(Streams, ResultThatCannotBeWrittenIsAnError) {
 }
 
 TEST(Streams, ReaderThatClosesItsPipeEndsNoFlight) {
-  const std::string folder = fresh_folder("pipe");
-  // The status is passed through the second descriptor, not through the pipe.
-  const Answer answer = ask(short_run(folder) + " --json | true; test -s " + folder + "/result.json && echo written");
-  EXPECT_THAT(answer.text, HasSubstr("written"));
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / "out";
+  const Answer answer = ask("--version >/dev/null; ( { " HEDGEHOP_PROGRAM " " + short_run(out) +
+                            " --json; echo status $? >&3; } | : ) 3>&1");
+  EXPECT_THAT(answer.text, HasSubstr("status 0\n"));
+  EXPECT_TRUE(std::filesystem::exists(out / "result.json"));
 }
 
 TEST(Streams, AClosedPipeIsNoError) {
@@ -54,14 +50,16 @@ TEST(Streams, AClosedPipeIsNoError) {
 
 TEST(Streams, FullStandardErrorIsNoReasonToFail) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const std::string page = fresh_folder("page");
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "page.html").string();
   EXPECT_EQ(ask("trim " HEDGEHOP_SOURCE_DIR "/configs/vehicles/s900.yaml --plot " + page + " 2>/dev/full #").status, 0);
 }
 
 TEST(Streams, ClosedStreamsAreNoReasonToFail) {
-  const std::string folder = fresh_folder("closed");
-  EXPECT_EQ(ask(short_run(folder) + " <&- >&- 2>&- #").status, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder + "/result.json"));
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / "out";
+  EXPECT_EQ(ask(short_run(out) + " <&- >&- 2>&- #").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out / "result.json"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/sim/cli/ask.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -19,23 +20,27 @@ using Json = nlohmann::json;
 
 const std::string kVehicles = HEDGEHOP_SOURCE_DIR "/configs/vehicles/";
 
-/// Writes a vehicle file that changes another. Each test has its own file because tests run in parallel.
-std::string vehicle_file(const std::string& name, const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / ("vehicle_commands_" + name + ".yaml");
-  std::ofstream(file) << text;
-  return file.string();
-}
+/// A file that describes a vehicle.
+class VehicleFile {
+ public:
+  explicit VehicleFile(const std::string& text) { std::ofstream(path()) << text; }
+  std::string path() const { return (folder_.path() / "vehicle.yaml").string(); }
 
-std::string weak_collective(const std::string& name) {
-  return vehicle_file(name, "use: " + kVehicles + "xcell_60.yaml\nservos: {collective: {lowest: -2, highest: 8.5}}\n");
+ private:
+  TemporaryFolder folder_;
+};
+
+VehicleFile weak_collective() {
+  return VehicleFile("use: " + kVehicles + "xcell_60.yaml\nservos: {collective: {lowest: -2, highest: 8.5}}\n");
 }
 
 TEST(Trim, MarksRowsBeyondTheControlStopsAndPrintsMargins) {
-  const Answer answer = ask("trim " + weak_collective("table") + " --speed 0:28:14");
+  const VehicleFile vehicle = weak_collective();
+  const Answer answer = ask("trim " + vehicle.path() + " --speed 0:28:14");
   EXPECT_EQ(answer.status, 0);
   EXPECT_THAT(answer.text, AllOf(HasSubstr("margin"), HasSubstr("  beyond: theta_c"), HasSubstr("limit 8.5 deg"),
                                  HasSubstr("not flyable, at 28 m/s")));
-  const Json rows = Json::parse(ask("trim " + weak_collective("json") + " --speed 0:28:14 --json 2>/dev/null #").text);
+  const Json rows = Json::parse(ask("trim " + vehicle.path() + " --speed 0:28:14 --json 2>/dev/null #").text);
   EXPECT_EQ(rows[0]["within_limits"], true);
   EXPECT_GT(rows[0]["margin_percent"]["theta_c"].get<double>(), 0.0);
   EXPECT_EQ(rows[2]["within_limits"], false);
@@ -47,25 +52,27 @@ TEST(Trim, WithoutSteadyFlightNamesTheFastest) {
   const std::string vehicle = kVehicles + "artis.yaml";
   const Answer answer = ask("trim " + vehicle + " --speed 60");
   EXPECT_EQ(answer.status, 2);
-  const std::string before = "no steady flight at 60 m/s; the fastest is about ";
+  const std::string before = "no steady flight at 60 m/s; a trim exists up to about ";
   const size_t at = answer.text.find(before);
   ASSERT_NE(at, std::string::npos) << answer.text;
   const double fastest_mps = std::stod(answer.text.substr(at + before.size()));
-  EXPECT_THAT(answer.text, HasSubstr(", beyond theta_c "));
+  EXPECT_THAT(answer.text, HasSubstr(", but is not flyable there: beyond theta_c "));
   EXPECT_EQ(ask("trim " + vehicle + " --speed " + std::to_string(fastest_mps - 0.1)).status, 0);
   EXPECT_EQ(ask("trim " + vehicle + " --speed " + std::to_string(fastest_mps + 0.2)).status, 2);
 }
 
 TEST(Trim, RefusesAFigureAsThePage) {
-  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + testing::TempDir() + "/trim.svg");
+  const TemporaryFolder folder;
+  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + folder.path().string() + "/trim.svg");
   EXPECT_EQ(answer.status, kBadInput);
   EXPECT_THAT(answer.text, HasSubstr("trim.svg' would be written as .html"));
 }
 
 TEST(Trim, RefusesAPageBelowAFile) {
-  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + vehicle_file("page", "") + "/trim.html");
+  const VehicleFile file("");
+  const Answer answer = ask("trim " + kVehicles + "s900.yaml --plot " + file.path() + "/trim.html");
   EXPECT_EQ(answer.status, kBadInput);
-  EXPECT_THAT(answer.text, HasSubstr("vehicle_commands_page.yaml: cannot write results: "));
+  EXPECT_THAT(answer.text, HasSubstr("vehicle.yaml: cannot write results: "));
 }
 
 TEST(Linearize, PrintsNamesOfModesUnitsAndEigenvectors) {
@@ -81,13 +88,12 @@ TEST(Linearize, PrintsNamesOfModesUnitsAndEigenvectors) {
 }
 
 TEST(Linearize, ReportsATrimBeyondTheStops) {
-  EXPECT_THAT(ask("linearize " + weak_collective("linear") + " --speed 28").text, HasSubstr("beyond the limits"));
+  EXPECT_THAT(ask("linearize " + weak_collective().path() + " --speed 28").text, HasSubstr("beyond the limits"));
 }
 
 TEST(Step, PrintsTheFullModelNextToTheLinearOneAndWritesAPage) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "vehicle_commands_step";  // missing
-  const std::string page = folder / "plots/step.html";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
+  const std::string page = folder.path() / "plots/step.html";  // in a missing folder
   const std::string command = "step " + kVehicles + "xcell_60.yaml --input longitudinal --size 0.2deg";
   const Answer answer = ask(command + " --duration 2 --plot " + page);
   EXPECT_EQ(answer.status, 0);
@@ -117,15 +123,17 @@ TEST(Identify, PrintsTheIdentifiedResponseNextToTheLinearModel) {
 
 TEST(Units, ARotorSpeedInRpmIsRecognizedAtItsPlace) {
   const std::string rotor = "use: " + kVehicles + "gtmax.yaml\nmain_rotor: {radius: 1.54, ";
-  const std::string wrong = vehicle_file("rpm_as_speed", rotor + "speed: 870}\n");
-  const Answer answer = ask("trim " + wrong);
+  const VehicleFile wrong(rotor + "speed: 870}\n");
+  const Answer answer = ask("trim " + wrong.path());
   EXPECT_EQ(answer.status, kBadInput);
-  EXPECT_THAT(answer.text,
-              AllOf(HasSubstr(wrong + ":2:"),
-                    HasSubstr("870: tip speed 1340 m/s; 870 rpm is 91.1 rad/s; did you mean `rpm: 870`?")));
-  const Json by_rpm = Json::parse(ask("trim " + vehicle_file("rpm", rotor + "rpm: 870}\n") + " --json").text);
-  const Json by_speed =
-      Json::parse(ask("trim " + vehicle_file("speed", rotor + "speed: 91.106186954104}\n") + " --json").text);
+  EXPECT_THAT(
+      answer.text,
+      AllOf(HasSubstr(wrong.path() + ":2:"),
+            HasSubstr("870: tip speed 1340 m/s, faster than sound; 870 rpm is 91.1 rad/s; did you mean `rpm: 870`?")));
+  const auto trimmed = [&rotor](const std::string& speed) {
+    return Json::parse(ask("trim " + VehicleFile(rotor + speed + "}\n").path() + " --json").text);
+  };
+  const Json by_rpm = trimmed("rpm: 870"), by_speed = trimmed("speed: 91.106186954104");
   EXPECT_NEAR(by_rpm[0]["theta_c"].get<double>(), by_speed[0]["theta_c"].get<double>(), 1e-9);
 }
 

@@ -43,29 +43,31 @@ class View(unittest.TestCase):
 
     def test_a_viewer_pauses_and_steps_the_flight_and_does_not_change_it(self):
         subprocess.run([HEDGEHOP, *OPTIONS, "--out", f"{self.folder.name}/alone"], check=True, capture_output=True)
-        with subprocess.Popen([HEDGEHOP, *OPTIONS, "--view", "--out", f"{self.folder.name}/viewed"], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True) as flight:
-            self.port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", flight.stderr.readline()).group(1))
-            page = self.request("GET", "/").read().decode()
-            self.assertIn('<canvas id="view"', page)
-            self.assertEqual(self.request("POST", "/pause", {"Host": "example.org"}).status, 403)
-            self.assertEqual(self.request("POST", "/pause", {"Origin": "http://example.org"}).status, 403)
-            self.assertEqual(self.request("GET", "/other").status, 404)
-            self.assertEqual(self.request("POST", "/pause").status, 204)
-            times, seen = [], set()
-            for name, data in events(self.request("GET", "/events")):
-                seen.add(name)
-                if name == "states":
-                    times += [state[0] for state in data]
-                    if len(times) < 4:
-                        self.assertEqual(self.request("POST", "/step").status, 204)
-                    else:
-                        self.request("POST", "/play")
-                if name == "end":
-                    self.assertEqual(data["trajectory_hash"], self.hash_of("alone"))
-                    break
-            self.assertEqual(flight.wait(60), 0)
-            flight.stderr.read()
+        flight = subprocess.Popen([HEDGEHOP, *OPTIONS, "--view", "--out", f"{self.folder.name}/viewed"], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True)
+        for end in (flight.stderr.close, flight.wait, flight.kill):  # in reverse order: a failure may leave it paused
+            self.addCleanup(end)
+        self.port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", flight.stderr.readline()).group(1))
+        page = self.request("GET", "/").read().decode()
+        self.assertIn('<canvas id="view"', page)
+        self.assertEqual(self.request("POST", "/pause", {"Host": "example.org"}).status, 403)
+        self.assertEqual(self.request("POST", "/pause", {"Origin": "http://example.org"}).status, 403)
+        self.assertEqual(self.request("GET", "/other").status, 404)
+        self.assertEqual(self.request("POST", "/pause").status, 204)
+        times, seen = [], set()
+        for name, data in events(self.request("GET", "/events")):
+            seen.add(name)
+            if name == "states":
+                times += [state[0] for state in data]
+                if len(times) < 4:
+                    self.assertEqual(self.request("POST", "/step").status, 204)
+                else:
+                    self.request("POST", "/play")
+            if name == "end":
+                self.assertEqual(data["trajectory_hash"], self.hash_of("alone"))
+                break
+        self.assertEqual(flight.wait(60), 0)
+        flight.stderr.read()
         self.assertEqual(self.hash_of("viewed"), self.hash_of("alone"))
         self.assertEqual(times, sorted(set(times)))
         self.assertEqual(times[0], 0.0)

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sim/config/input_error.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -18,9 +19,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 struct LockTest : ::testing::Test {
-  const fs::path root = fs::path(::testing::TempDir()) / ("folder_lock_" + std::to_string(::getpid()));
-  LockTest() { fs::create_directory(root); }
-  ~LockTest() override { fs::remove_all(root); }
+  const TemporaryFolder scratch;
+  const fs::path root = scratch.path();
 
   /// Returns the fault that a second lock prints, or "".
   template <class... Part>
@@ -82,9 +82,11 @@ TEST_F(LockTest, IsReleasedWhenItsProcessIsKilled) {
     if (::write(ready[1], "x", 1) == 1) ::pause();
     ::_exit(0);
   }
+  ::close(ready[1]);  // so that the read ends if the holder does
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_THAT(fault(root / "a"), HasSubstr(std::to_string(holder)));
+  ::close(ready[0]);
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
   EXPECT_EQ(fault(root / "a"), "");

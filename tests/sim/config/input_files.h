@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -12,23 +10,15 @@
 #include "sim/config/include.h"
 #include "sim/config/input_error.h"
 #include "sim/config/reader.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 
-/// A folder of files for one test, made the working folder until it goes, so that messages name short paths.
-class Folder {
+/// A folder for one test, made the working folder until it goes, so that messages name short paths.
+class Folder : public TemporaryFolder {
  public:
-  Folder() : before_(std::filesystem::current_path()) {
-    path_ = std::filesystem::temp_directory_path() / ("hedgehop_scenario_test_" + std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
-    std::filesystem::current_path(path_);
-  }
-  ~Folder() {
-    std::filesystem::current_path(before_);
-    std::filesystem::remove_all(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  Folder() : before_(std::filesystem::current_path()) { std::filesystem::current_path(path()); }
+  ~Folder() { std::filesystem::current_path(before_); }
 
   static void write(const std::filesystem::path& file, const std::string& text) {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
@@ -36,7 +26,7 @@ class Folder {
   }
 
  private:
-  std::filesystem::path before_, path_;
+  std::filesystem::path before_;
 };
 
 /// Returns the errors that `f` throws as InputError; empty without an exception.

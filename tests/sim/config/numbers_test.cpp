@@ -51,6 +51,8 @@ TEST(Numbers, HaveAPointBeforeTheirExponentForReadersOfYaml11) {
   EXPECT_EQ(yaml_1_1_number(3e20), "3.0e+20");
   EXPECT_EQ(yaml_1_1_number(0.25), "0.25");
   EXPECT_EQ(yaml_1_1_number(400.0), "400");
+  EXPECT_EQ(yaml_1_1_list(std::vector{2e-5, -0.0, 0.25}), "2.0e-05, 0, 0.25");
+  EXPECT_EQ(yaml_1_1_list({}), "");
 }
 
 TEST(Numbers, EveryDoubleComesBackBitForBit) {

@@ -12,6 +12,7 @@
 
 #include "sim/config/include.h"
 #include "sim/config/numbers.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -43,7 +44,8 @@ TEST(OtherUnits, RpmStandsForTheRotorSpeed) {
 TEST(OtherUnits, TheLaterKeyOverridesTheEarlier) {
   EXPECT_NEAR(speed_radps("main_rotor: {speed: 100}", {"main_rotor.rpm=870"}), kRadpsOf870Rpm, 1e-9);
   EXPECT_NEAR(speed_radps("main_rotor: {rpm: 870}", {"main_rotor.speed=100"}), 100.0, 1e-9);
-  const auto base = std::filesystem::path(testing::TempDir()) / "other_units_base.yaml";
+  const TemporaryFolder folder;
+  const std::filesystem::path base = folder.path() / "base.yaml";
   std::ofstream(base) << "main_rotor: {speed: 100}\n";
   EXPECT_NEAR(speed_radps("use: " + base.string() + "\nmain_rotor: {rpm: 870}"), kRadpsOf870Rpm, 1e-9);
 }
@@ -64,12 +66,19 @@ TEST(OtherUnits, KeysOfOtherMapsAreNotChanged) {
 
 // Their names and units are the module's own.
 TEST(OtherUnits, ParametersOfForeignModulesAreNotChanged) {
-  const auto base = std::filesystem::path(testing::TempDir()) / "other_units_parameters.yaml";
+  const TemporaryFolder folder;
+  const std::filesystem::path base = folder.path() / "parameters.yaml";
   std::ofstream(base) << "main_rotor: {rpm: 1500}\n";
+  const std::filesystem::path rotor_file = folder.path() / "rotor.yaml";
+  std::ofstream(rotor_file) << "rpm: 1500\n";
+  const std::string use_rotor = "{main_rotor: {use: " + rotor_file.string() + "}}";
   const std::string module = "avoidance: {python: a.py, class: A", map = ", parameters: {main_rotor: {rpm: 1500}}}";
   for (const auto& [yaml, change] : std::vector<std::pair<std::string, std::string>>{
            {module + map, "a=1"},
            {module + ", parameters: {use: " + base.string() + "}}", "a=1"},
+           {module + ", parameters: " + use_rotor + "}", "a=1"},
+           {module + "}", "avoidance.parameters=" + use_rotor},
+           {module + "}", "avoidance.parameters.main_rotor.use=" + rotor_file.string()},
            {module + "}", "avoidance.parameters={main_rotor: {rpm: 1500}}"},
            {module + "}", "avoidance.parameters.main_rotor.rpm=1500"},
            {module + "}", "avoidance.parameters.main_rotor={rpm: 1500}"}}) {

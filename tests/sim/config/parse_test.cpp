@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sample_config.h"
+#include "sim/config/whole_file.h"
 #include "tests/sim/config/input_files.h"
 
 namespace hedgehop::sim {
@@ -22,6 +23,12 @@ TEST(Parse, MissingFolderAndEmptyFiles) {
   Folder folder;
   EXPECT_THAT(faults_of([] { load_struct<Sample>("no.yaml"); }), ElementsAre("no.yaml: there is no such file"));
   EXPECT_THAT(faults_of([] { load_struct<Sample>("."); }), ElementsAre(".: is a folder, not a file"));
+  std::filesystem::create_symlink("loop", "loop");
+  EXPECT_THAT(faults_of([] { load_struct<Sample>("loop"); }),
+              ElementsAre("loop: cannot be read: Too many levels of symbolic links"));
+  EXPECT_THAT(faults_of([] { read_file_whole("loop"); }),
+              ElementsAre("loop: cannot be read: Too many levels of symbolic links"));
+  EXPECT_THAT(faults_of([] { read_file_whole("no.yaml"); }), ElementsAre("no.yaml: there is no such file"));
   EXPECT_THAT(faults_of_file(""), ElementsAre("a.yaml:1:1: the file is empty"));
   EXPECT_THAT(faults_of_file("# only words\n"), ElementsAre("a.yaml:1:1: the file is empty"));
   EXPECT_THAT(faults_of_file("- 1\n"), ElementsAre("a.yaml:1:1: expected a map of keys, got a list"));
@@ -31,6 +38,35 @@ TEST(Parse, SyntaxErrorsHaveAPlace) {
   Folder folder;
   EXPECT_THAT(faults_of_file("name: x\nrotor: {radius: 1\n"), ElementsAre(testing::StartsWith("a.yaml:3:1: ")));
   EXPECT_THAT(faults_of_file("name: x\n  mass: 3\n"), ElementsAre(testing::StartsWith("a.yaml:2:7: ")));
+}
+
+TEST(Parse, SyntaxErrorsNameTheCause) {
+  Folder folder;
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"name: note: x\n", "1:11: a second ': ' in this value; put the value in quotes"},
+           {"tail: {radius: 1: 2}\n", "1:17: a second ': ' in this value; put the value in quotes"},
+           {"name x\nmass: 3\n", "2:5: unexpected ':'; does the line before lack a colon?"},
+           {"name: x\n  mass: 3\n", "2:7: unexpected ':'; is this line indented too far?"},
+           {"rotor:\n\tradius: 1\n", "2:1: a tab in the indentation; use spaces"},
+           {"rotor:\n  radius: 1\n\tblade_count: 2\n", "3:1: a tab in the indentation; use spaces"},
+           {"gains:\n\t- 1\n", "2:1: a tab in the indentation; use spaces"},
+           {"name: @home\n", "1:7: a value must not begin with '@'; put it in quotes"},
+           {"\xef\xbb\xbfname: `x`\n", "1:7: a value must not begin with '`'; put it in quotes"},
+           {"name: \"a\"b\nmass: 1\n", "1:10: text after the end of a quoted value"},
+           {"name: 'it's'\n", "1:11: text after the end of a quoted value"},
+           {"rotor:\n  radius: 1\n mass: 3\n",
+            "3:2: this line continues no list and no map above; is its indentation wrong?"},
+           {"gains: [1,2\nmass: 1\n", "2:5: ']' is missing; the list begins in line 1"},
+           {"gains: [1,2\n", "2:1: ']' is missing; the list begins in line 1"},
+           {"gains: [[1, 2] [3, 4]]\n", "1:16: ',' or ']' is missing"},
+           {"tail: {radius: 1\nmass: 1\n", "2:5: '}' is missing; the map begins in line 1"},
+           {"gains: [1, 2]]\n", "1:14: ']' without the bracket that it closes"},
+           {"name: \"abc\nmass: 1\n", "1:7: the closing quote is missing"},
+           {"words: ['abc", "1:9: the closing quote is missing"}}) {
+    EXPECT_THAT(faults_of_file(text), ElementsAre("a.yaml:" + error)) << text;
+  }
+  Folder::write("a.yaml", "mass: 1\nname: 'it''s'  # its end\n\n");
+  EXPECT_EQ(load_struct<Sample>("a.yaml").name, "it's");
 }
 
 TEST(Parse, RefusesInputThatYamlLibrariesAccept) {
@@ -195,7 +231,9 @@ TEST_F(Override, FaultsNameTheOverride) {
               ElementsAre("--set shape.type.x: 'shape.type' is the single value 'square'; it has no key 'x'"));
   EXPECT_THAT(faults("mass"), ElementsAre("--set mass: expected key.path=value"));
   EXPECT_THAT(faults("a..b=3"), ElementsAre("--set a..b=3: expected key.path=value"));
-  EXPECT_THAT(faults("mass=[1"), ElementsAre("--set mass: '[1' is not a YAML value"));
+  EXPECT_THAT(faults("mass=[1"), ElementsAre("--set mass: '[1' is not a YAML value: ']' is missing"));
+  EXPECT_THAT(faults("shape={type: round"),
+              ElementsAre("--set shape: '{type: round' is not a YAML value: '}' is missing"));
   EXPECT_THAT(faults("mass="), ElementsAre("--set mass: 'mass' expects a number in kg, got an empty value"));
 }
 

@@ -63,6 +63,7 @@ TEST(PendingFile, AppearsWithoutProc) {
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
   if (WEXITSTATUS(status) == kNotAllowed) GTEST_SKIP() << "only root may hide /proc";
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_THAT(names_here(), ElementsAre("table.csv"));

@@ -69,6 +69,10 @@ TEST(Reader, OutOfBounds) {
   EXPECT_EQ(fault("delay: -1"), "a.yaml:1:8: 'delay': must be >= 0 s, got -1");
   EXPECT_EQ(fault("whole: 2147483648"),
             "a.yaml:1:8: 'whole': must be between -2147483648 and 2147483647, got 2147483648");
+  EXPECT_EQ(fault("rotor: {blade_count: 999999999999999999999}"),
+            "a.yaml:1:22: 'rotor.blade_count': must be <= 8, got 999999999999999999999");
+  EXPECT_EQ(fault("rotor: {blade_count: -9999999999}"),
+            "a.yaml:1:22: 'rotor.blade_count': must be >= 1, got -9999999999");
   EXPECT_EQ(fault("seed: -1"), "a.yaml:1:7: 'seed': must be between 0 and 18446744073709551615, got -1");
 }
 

@@ -6,6 +6,8 @@
 #include <random>
 #include <string>
 
+#include "sim/fields/shortened.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -32,6 +34,18 @@ TEST(NameText, ReadsBackToTheSameBytes) {
     EXPECT_EQ(raw_name(name_text(name)), name);
     EXPECT_EQ(utf8_text(name_text(name)), name_text(name)) << "is UTF-8";
   }
+}
+
+TEST(Shortened, CutsAfterAWholeCharacter) {
+  const std::string text = "aé飞🚁é飞🚁a";
+  for (size_t bytes = 0; bytes < text.size(); ++bytes) {
+    const std::string cut = shortened(text, bytes);
+    ASSERT_TRUE(cut.ends_with("...") && cut.size() <= bytes + 3) << bytes;
+    EXPECT_TRUE(text.starts_with(cut.substr(0, cut.size() - 3))) << bytes;
+    EXPECT_EQ(utf8_text(cut), cut) << bytes;
+    EXPECT_GT(cut.size() + 1, bytes) << "drops less than one character";
+  }
+  EXPECT_EQ(shortened(text, text.size()), text);
 }
 
 TEST(JsonText, IsStrictJsonForAnyBytes) {

@@ -115,6 +115,7 @@ names:
 "a, b":
   - "q#": {c: 1}
     "d]": [3, 4]
+dashes: [-, {e: -}, [-, --]]
 plain: [http://a/b, 1.5]
 two words: größe
 )";

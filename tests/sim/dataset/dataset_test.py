@@ -15,6 +15,9 @@ import unittest
 import cv2
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "export"))
+from flown import rotation  # noqa: E402
+
 PROGRAM, SOURCE = sys.argv[1:3]
 CAMERA = ["--set", "rig.cameras.0.width=160", "--set", "rig.cameras.0.height=120"]
 WORLD = f"{SOURCE}/configs/worlds/park.yaml"
@@ -33,11 +36,8 @@ def files(folder):
 
 
 def pose(row, prefix=""):
-    w, x, y, z = (float(row[prefix + k]) for k in ("qw", "qx", "qy", "qz"))
     X = np.eye(4)
-    X[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                 [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    X[:3, :3] = rotation(*(float(row[prefix + k]) for k in ("qw", "qx", "qy", "qz")))
     X[:3, 3] = [float(row[prefix + k]) for k in ("north_m", "east_m", "down_m")]
     return X
 
@@ -208,16 +208,25 @@ class Dataset(unittest.TestCase):
         twice = hedgehop("dataset", WORLD, WORLD, "--images", 2, "--out", self.folder / "bad")
         self.assertEqual(twice.returncode, 2)
         self.assertIn("another scenario has this file name", twice.stderr)
-        self.assertIn("not in the rig; valid: front, down", refused("--images", 1, "--camera", "up"))
+        other = hedgehop("dataset", WORLD, "--renderer", "foo", "--images", 2, "--out", self.folder / "bad")
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("--renderer: foo not in {osmesa,egl,tiles}", other.stderr)
+        no_camera = refused("--images", 1, "--camera", "up")
+        self.assertIn("not in the rig; valid: front, down", no_camera)
+        self.assertNotIn("exit status", no_camera)
         self.assertIn("random poses in a row", refused("--images", 1, "--height", "900,901"))
+        self.assertIn("the scene has no obstacle, so no pose is 1 to 30 m from one",
+                      refused("--images", 1, "--set", "scene={type: open}"))
         (self.folder / "poses.txt").write_text("1 2 3\n")
         self.assertIn("poses.txt:1: 3 numbers; valid", refused("--poses", self.folder / "poses.txt"))
         (self.folder / "two.txt").write_text("0 0 0 10 0 0 0 1\n1 0 0 10 0 0 0 1\n")
         self.assertIn("--images 7: " + str(self.folder / "two.txt") + " has 2 poses; valid: up to 6 images in 3 worlds",
                       refused("--poses", self.folder / "two.txt", "--images", 7, "--seeds", "1:3"))
+        (self.folder / "one.txt").write_text("0 0 0 10 0 0 0 1\n")
+        self.assertIn("one.txt has 1 pose; valid: up to 1 image\n", refused("--poses", self.folder / "one.txt", "--images", 2))
         missing = dataset(self.folder / "none", "--poses", self.folder / "nosuch.csv")
         self.assertEqual(missing.returncode, 2, missing.stderr)
-        self.assertIn("nosuch.csv: No such file", missing.stderr)
+        self.assertIn("nosuch.csv: there is no such file", missing.stderr)
         self.assertFalse((self.folder / "none").exists())
 
 

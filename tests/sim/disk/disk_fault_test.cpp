@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/sim/cli/exit_status.h"
 #include "tests/sim/disk/small_campaign.h"
 
 namespace hedgehop::sim {
@@ -20,8 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
-
-constexpr int kFails = 1, kBadInput = 2, kInternalError = 3;
 
 /// Returns the lines of standard error without progress.
 std::vector<std::string> complaints(const std::string& err) {

@@ -83,22 +83,11 @@ class SmallCampaign : public CampaignFolder {
       if (!entry.is_regular_file()) continue;
       const std::string ending = entry.path().extension(), text = read_file_whole(entry.path());
       std::string& lasting = files[entry.path().lexically_relative(folder)];
-      if (ending == ".json") lasting = lasting_part(nlohmann::ordered_json::parse(text)).dump(1);
+      if (ending == ".json") lasting = lasting_fields(nlohmann::ordered_json::parse(text)).dump(1);
       if (ending == ".csv") lasting = text.find(",time.") == std::string::npos ? text : lasting_columns(text);
       if (ending == ".yaml" || ending == ".md") lasting = text;
     }
     return files;
-  }
-
- private:
-  static nlohmann::ordered_json lasting_part(nlohmann::ordered_json json) {
-    for (const char* time : {"decision_ms", "render_ms", "velocimeter_ms", "physics_ms", "realtime_factor", "wall_s"}) {
-      if (json.is_object()) json.erase(time);
-    }
-    for (auto& value : json) {
-      if (value.is_structured()) value = lasting_part(std::move(value));
-    }
-    return json;
   }
 };
 

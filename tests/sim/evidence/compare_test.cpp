@@ -66,7 +66,7 @@ TEST(Compare, RequiresTwoDifferentScenarios) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
     return end.status == 2 ? end.err : "accepted";
   };
-  EXPECT_THAT(refused("tiny.yaml tiny.yaml"), HasSubstr("are to be two scenarios"));
+  EXPECT_THAT(refused("tiny.yaml tiny.yaml"), HasSubstr("BASE and CANDIDATE are the same file 'tiny.yaml'"));
   EXPECT_THAT(refused("tiny.yaml missing.yaml"), HasSubstr("missing.yaml"));
 }
 

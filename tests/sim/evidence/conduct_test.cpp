@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST(Conduct, BadFileDoesNotCountForTheRateOrThePlannedFlights) {
   const CampaignFolder folder;
@@ -21,12 +22,33 @@ TEST(Conduct, BadFileDoesNotCountForTheRateOrThePlannedFlights) {
   const CommandEnd end = folder.hedgehop("batch bad.yaml tiny.yaml --seeds 5:8 --min-success 0.4 --out out");
   EXPECT_EQ(end.status, 2);
   EXPECT_THAT(end.err, HasSubstr("bad.yaml:3:1: unknown key 'foo'"));
-  const Json conduct = folder.json("out/batch.json").at("conduct");
-  EXPECT_EQ(conduct.at("planned"), 4);
-  EXPECT_EQ(conduct.at("seeds"), "5:8");
-  EXPECT_TRUE(folder.json("out/batch.json").at("flights").back().at("passed"));
+  const Json batch = folder.json("out/batch.json");
+  EXPECT_EQ(batch.at("conduct").at("planned"), 4);
+  EXPECT_EQ(batch.at("conduct").at("seeds"), "5:8");
+  EXPECT_TRUE(batch.at("flights").back().at("passed"));
+  ASSERT_EQ(batch.at("verdicts").size(), 1u);
+  EXPECT_EQ(batch.at("verdicts").at(0).at("group"), "tiny");
+  EXPECT_EQ(batch.at("groups").at(0).at("ended"), 0);
+  EXPECT_THAT(end.out, HasSubstr("| bad | 1 | 0 | - | 0 | 0 | 0 | 1 | 0 |"));
   EXPECT_THAT(folder.hedgehop("batch bad.yaml tiny.yaml --seeds 5:8 --min-success 0.9 --out out").err,
               AllOf(HasSubstr("unknown key 'foo'"), HasSubstr("4 of 4 flights that pass cannot show")));
+}
+
+/// 5 flights without an event show 0.5 at 95 %.
+TEST(Conduct, BadFileHasNoClaimUnderAStoppingRule) {
+  const CampaignFolder folder;
+  folder.write("bad.yaml", "use: tiny.yaml\nname: bad\nfoo: 1\n");
+  const CommandEnd end = folder.hedgehop("batch bad.yaml tiny.yaml --seeds 5:12 --until 'collision < 0.5' --out out");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.out, Not(HasSubstr("collision < 0.5 bad")));
+  const Json batch = folder.json("out/batch.json");
+  ASSERT_EQ(batch.at("sequential").size(), 1u);
+  EXPECT_EQ(batch.at("sequential").at(0).at("group"), "tiny");
+  EXPECT_EQ(batch.at("sequential").at(0).at("planned"), 8);
+  EXPECT_EQ(batch.at("sequential").at(0).at("discarded"), 3);
+  ASSERT_EQ(batch.at("flights").size(), 6u);
+  EXPECT_EQ(batch.at("flights").at(0).at("status"), "failed");
+  EXPECT_THAT(folder.read("out/batch.csv"), HasSubstr("bad.yaml,0,0,failed,"));
 }
 
 TEST(Conduct, PrintingJsonAlsoWritesThePageWithTheVerdicts) {

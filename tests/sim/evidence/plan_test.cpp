@@ -12,6 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class PlanFolder : public CampaignFolder {
  public:
@@ -176,6 +177,18 @@ TEST(Plan, ListsEveryDeviation) {
       ElementsAre("tiny.yaml: seeds 101:103, registered 101:110", HasSubstr("resolved scenario has SHA-256 "),
                   "avoidance.speed=0.4 was set", "rule 'collision < 0.6' at 0.95, registered 'collision < 0.5' at 0.95",
                   "flights over 90 s of wall time were ended", HasSubstr(", registered 0123456789abcdef")));
+}
+
+TEST(Plan, ItsRuleIsRefusedNextToChecksOverTheSeedsWithItsPlace) {
+  const PlanFolder folder;
+  folder.write("campaign.yaml",
+               "tuned_on: 1:100\nplan: plan.yaml\nflights: [{scenario: tiny.yaml, seeds: 101:110}]\n"
+               "checks: [{check: success_rate, at_least: 0.1}]\n");
+  for (const char* command : {"batch campaign.yaml --out out", "validate campaign.yaml"}) {
+    const CommandEnd end = folder.hedgehop(command);
+    EXPECT_EQ(end.status, 2) << command;
+    EXPECT_THAT(end.err, StartsWith("plan.yaml: rule: success_rate, no_worse and leaderboards are for a number"));
+  }
 }
 
 TEST(Plan, RejectsBadPlansWithTheirPlace) {

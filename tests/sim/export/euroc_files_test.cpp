@@ -14,8 +14,10 @@ TEST(EurocFiles, AnyRoleIsTheCommentOfItsSensor) {
     RecordedCamera& camera = record.cameras.emplace_back();
     camera.role = role;
     camera.lens.distortion.assign(8, 0.0);
+    int found = 0;
     for (const DataFile& file : euroc_files(record)) {
       if (file.name != "mav0/cam0/sensor.yaml") continue;
+      ++found;
       ErrorList errors("sensor");
       const Node sensor = parse_yaml(file.text, "sensor.yaml", errors);
       EXPECT_TRUE(errors.empty()) << file.text;
@@ -23,6 +25,7 @@ TEST(EurocFiles, AnyRoleIsTheCommentOfItsSensor) {
       EXPECT_EQ(sensor.find("comment")->text, role);
       EXPECT_EQ(file.text.find("comment: left\n") != std::string::npos, role == "left");
     }
+    EXPECT_EQ(found, 1);
   }
 }
 

@@ -66,6 +66,7 @@ TEST(LevelScan, MeasuresTheLevelDistanceToAWallWhateverTheTilt) {
 TEST(LevelScan, FrameIsLevelAndLooksAlongTheCamera) {
   const Eigen::Isometry3d X_EC = camera_pose(0.3, 0.2);
   const auto scan = level_scan(wall_depth(X_EC), lens(), X_EC, kMaxM);
+  ASSERT_TRUE(scan);
   EXPECT_TRUE(scan->X_ECl.linear().col(0).isApprox(Eigen::Vector3d::UnitY(), 1e-12));   // north
   EXPECT_TRUE(scan->X_ECl.linear().col(1).isApprox(-Eigen::Vector3d::UnitX(), 1e-12));  // left: west
   EXPECT_TRUE(scan->X_ECl.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
@@ -76,6 +77,7 @@ TEST(LevelScan, AnglesCountToTheLeft) {
   cv::Mat depth(121, 161, CV_32FC1, cv::Scalar(20.0));
   depth.colRange(0, 40).setTo(5.0);  // an obstacle at the left
   const auto scan = level_scan(depth, lens(), X_EC, kMaxM);
+  ASSERT_TRUE(scan);
   EXPECT_LT(scan->angle_min_rad, 0.0);
   EXPECT_LT(scan->ranges_m.back(), 8.0f);
   EXPECT_GT(scan->ranges_m.front(), 19.0f);
@@ -86,6 +88,7 @@ TEST(LevelScan, UnknownDepthIsNanAndSkyIsInfinite) {
   cv::Mat depth(121, 161, CV_32FC1, cv::Scalar(std::numeric_limits<float>::infinity()));
   depth.colRange(100, 161).setTo(std::nan(""));
   const auto scan = level_scan(depth, lens(), X_EC, kMaxM);
+  ASSERT_TRUE(scan);
   EXPECT_TRUE(std::isnan(scan->ranges_m.front()));
   EXPECT_TRUE(std::isinf(scan->ranges_m.back()));
 }

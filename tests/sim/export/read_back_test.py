@@ -68,13 +68,18 @@ class ReadBack(unittest.TestCase):
         self.assertEqual(kalibr("--camera", "left", "--set", rig), kalibr("--camera", "left"))
 
     def test_all_numbers_of_the_sensors_are_numbers_for_other_readers(self):
-        small = ["--set", "avionics.imu.gyro_noise=2.0e-5", "--set", "avionics.imu.gyro_bias_walk=1.0e-7", "--set", "duration=0.2"]
+        small = ["--set", "avionics.imu.gyro_noise=2.0e-5", "--set", "avionics.imu.gyro_bias_walk=1.0e-7", "--set", "duration=0.2",
+                 "--set", "velocimeter.enabled=false", "--set", "rig.cameras.0.distortion=[2e-05, 0, 0, 0]"]
         flown = hedgehop("run", SCENARIO, "--out", self.folder / "small", "--no-video", "--no-report", *small)
         self.assertIn(flown.returncode, (0, 1), flown.stderr)
         done = hedgehop("export", self.folder / "small", "--format", "euroc")
         self.assertEqual(done.returncode, 0, done.stderr)
         sensor = yaml.safe_load((self.folder / "small/euroc/mav0/imu0/sensor.yaml").read_text())
         self.assertEqual((sensor["gyroscope_noise_density"], sensor["gyroscope_random_walk"]), (2.0e-5, 1.0e-7))
+        done = hedgehop("export", self.folder / "small", "--format", "tum", "--camera", "down")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "small/tum/calibration.yaml").read_text().replace("!!opencv-matrix", "").partition("---\n")[2]
+        self.assertEqual(yaml.safe_load(text)["distortion_coefficients"]["data"][0], 2.0e-5)
 
     def test_poses_are_those_of_the_run(self):
         compared = 0

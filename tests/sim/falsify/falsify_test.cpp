@@ -153,7 +153,10 @@ TEST_F(Falsify, RejectsTheFolderOfAnotherSearch) {
   folder.write("search.yaml", search(", seed: 2"));
   const CommandEnd end = folder.hedgehop("falsify search.yaml --out out");
   EXPECT_EQ(end.status, 2);
-  EXPECT_THAT(end.err, HasSubstr("out: holds a search of another file"));
+  EXPECT_THAT(end.err, HasSubstr("out: holds a search of another file, or of this one before it or a --set was"));
+  folder.write("out/falsify.json", "{\n");
+  EXPECT_EQ(folder.hedgehop("falsify search.yaml --out out").err,
+            "out/falsify.json:2:1: is not complete JSON; choose another --out, or remove the file\n");
 }
 
 TEST_F(Falsify, CountsOnlyPointsThatViolateAConstraintAsInfeasible) {

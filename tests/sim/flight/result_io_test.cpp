@@ -31,6 +31,11 @@ const RunInfo kInfo{.scenario = "city",
                     .command_line = "hedgehop run",
                     .scenario_yaml = {}};
 
+/// Counts of a link that differ from their defaults and from each other.
+LinkFigures distinct_link() {
+  return {"ardupilot_json", "127.0.0.1:9002", 101, 102, 103, 104, 105, 106, 107, 108, 109, 110.5};
+}
+
 /// A result in which every field differs from its default and from every other field.
 FlightResult distinct_result() {
   FlightResult r;
@@ -39,6 +44,7 @@ FlightResult distinct_result() {
   r.goal_missed_unchecked = true;
   r.truth_used = {"camera 'front': depth", "sensor 'gps': exact"};
   r.failures = {"2 s to 4 s: gps off"};
+  r.physics_rate_hz = 36;
   r.flight_time_s = 1.0 / 3.0;
   r.path_length_m = 2.1;
   r.mean_speed_mps = 3.2;
@@ -61,6 +67,7 @@ FlightResult distinct_result() {
                {"module.corners", 28.5, "", FigureKind::module},
                {"filter_ms", 29.5, "ms", FigureKind::wall_time}};
   r.scene = {.solids = 31, .smallest_gap_m = 32.5, .median_gap_m = 33.5, .covered_share = 0.34, .density_pm2 = 0.35};
+  r.link = distinct_link();
   return r;
 }
 
@@ -74,6 +81,21 @@ void expect_equal(const ClosestApproach& a, const ClosestApproach& b) {
 void expect_equal(const StageTime& a, const StageTime& b) {
   EXPECT_EQ(a.median_ms, b.median_ms);
   EXPECT_EQ(a.p95_ms, b.p95_ms);
+}
+
+void expect_equal(const LinkFigures& a, const LinkFigures& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.peer, b.peer);
+  EXPECT_EQ(a.frames, b.frames);
+  EXPECT_EQ(a.repeated, b.repeated);
+  EXPECT_EQ(a.old, b.old);
+  EXPECT_EQ(a.resent, b.resent);
+  EXPECT_EQ(a.missed, b.missed);
+  EXPECT_EQ(a.unanswered, b.unanswered);
+  EXPECT_EQ(a.malformed, b.malformed);
+  EXPECT_EQ(a.strangers, b.strangers);
+  EXPECT_EQ(a.start_tick, b.start_tick);
+  EXPECT_EQ(a.waited_s, b.waited_s);
 }
 
 TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
@@ -92,6 +114,7 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   EXPECT_EQ(f.goal_missed_unchecked, r.goal_missed_unchecked);
   EXPECT_EQ(f.truth_used, r.truth_used);
   EXPECT_EQ(f.failures, r.failures);
+  EXPECT_EQ(f.physics_rate_hz, r.physics_rate_hz);
   EXPECT_EQ(f.flight_time_s, r.flight_time_s);
   EXPECT_EQ(f.path_length_m, r.path_length_m);
   EXPECT_EQ(f.mean_speed_mps, r.mean_speed_mps);
@@ -133,6 +156,8 @@ TEST(ResultIo, RoundTripKeepsEveryFieldBitForBit) {
   EXPECT_EQ(f.scene.median_gap_m, r.scene.median_gap_m);
   EXPECT_EQ(f.scene.covered_share, r.scene.covered_share);
   EXPECT_EQ(f.scene.density_pm2, r.scene.density_pm2);
+  ASSERT_TRUE(f.link);
+  expect_equal(*f.link, *r.link);
 }
 
 TEST(ResultIo, RoundTripKeepsAbsentAndNonFiniteValues) {
@@ -143,12 +168,16 @@ TEST(ResultIo, RoundTripKeepsAbsentAndNonFiniteValues) {
   r.scene.smallest_gap_m = r.scene.median_gap_m = kInfinity;
   r.checks = {{"metric", false, kNaN, kInfinity, ""}};
   r.metrics = {{"m", kNaN, ""}};
+  r.link = distinct_link();
+  r.link->start_tick = std::nullopt;
   const FlightResult f = result_from_json(Json::parse(result_json(kInfo, r))).flight;
   EXPECT_EQ(f.closest_obstacle.distance_m, kInfinity);
   EXPECT_EQ(f.closest_ground.distance_m, kInfinity);
   EXPECT_TRUE(std::isnan(f.mean_speed_mps));
   EXPECT_EQ(f.goal_distance_m, std::nullopt);
   EXPECT_EQ(f.checks[0].t_s, std::nullopt);
+  ASSERT_TRUE(f.link);
+  expect_equal(*f.link, *r.link);
   EXPECT_TRUE(std::isnan(f.checks[0].value));
   EXPECT_TRUE(std::isnan(f.checks[0].limit));
   EXPECT_TRUE(std::isnan(f.metrics[0].value));

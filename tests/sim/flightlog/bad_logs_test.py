@@ -6,7 +6,7 @@ usage: bad_logs_test.py PROGRAM SOURCE
 import sys
 import unittest
 
-from synthetic_logs_test import SOURCE, Logs
+from synthetic_logs_test import MOTORS, SOURCE, Logs
 
 
 class BadInput(Logs):
@@ -36,16 +36,19 @@ class BadInput(Logs):
             "cmd_v_north_mps", "cmd_v_east_mps", "cmd_altitude_m", "cmd_heading_rad")}} for t in self.times(1.0)], "late.csv")
         self.assertIn("no finite number in row 1; row 21 has the first", self.refused("compare-log", quadrotor, late))
         self.assertIn("--time t_s --from 0.2 -o CUT.csv", self.refused("compare-log", quadrotor, late))
+        later = self.log([{"t_s": 8.0 + 0.125 * k, **dict.fromkeys(MOTORS, "" if k < 2 else 0.0)} for k in range(20)], "later.csv")
+        self.assertIn("--time t_s --from 0.25 -o CUT.csv", self.refused("compare-log", quadrotor, later))  # from the first row
         plot = self.refused("compare-log", quadrotor, log, "--plot", self.folder / "errors.html")
         self.assertIn("would be written as .svg", plot)
         heli = SOURCE / "configs/vehicles/xcell_60.yaml"
         self.assertIn("collective_rad, lateral_rad", self.refused("compare-log", heli, log))
         commands = self.log([{"t_s": t, "cmd_v_north_mps": 1.0, "cmd_v_east_mps": 0.0, "cmd_altitude_m": 0.0,
                               "cmd_heading_rad": 0.0} for t in self.times(4.0)], "commands.csv")
-        self.assertIn("log has 4 columns of motor_speeds, commands has 4 of setpoints; logs of one call need the same inputs",
+        self.assertIn(f"{log} has 4 columns of motor_speeds, {commands} has 4 of setpoints; logs of one call need the same inputs",
                       self.refused("compare-log", quadrotor, log, commands))
-        slow = self.log([{"t_s": 2.0 * t} for t in self.times(4.0)], "slow.csv")
-        self.assertIn("log has a sample every 0.01 s, slow every 0.02 s; logs of one call need the same rate",
+        (self.folder / "slow").mkdir()
+        slow = self.log([{"t_s": 2.0 * t} for t in self.times(4.0)], "slow/log.csv")
+        self.assertIn(f"{log} has a sample every 0.01 s, {slow} every 0.02 s; logs of one call need the same rate",
                       self.refused("compare-log", quadrotor, log, slow))
         fit = ("identify", quadrotor, "--log", log)
         self.assertIn("--fit is missing", self.refused(*fit))

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sim/fields/quantities.h"
 #include "sim/scenario/motor_frames.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/validate.h"
@@ -19,8 +19,6 @@ namespace {
 
 using dynamics::multicopter::ArmConfig;
 using dynamics::multicopter::MulticopterConfig;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 ArmConfig arm(double azimuth_deg, bool clockwise) {
   return {azimuth_deg / kDegPerRad, 0.2, clockwise ? ArmConfig::Turns::clockwise : ArmConfig::Turns::counter_clockwise};
@@ -113,8 +111,10 @@ TEST(MotorFrames, ArmOfAnotherSenseOrAzimuthIsNamed) {
 
 TEST(MotorFrames, AnotherNumberOfArmsAndAnUnknownFrameAreRefused) {
   EXPECT_EQ(match_motors(MulticopterConfig{}, 2, 1).errors.at(0).message, "4 arms; FRAME_CLASS 2, TYPE 1 has 6 motors");
-  EXPECT_NE(match_motors(MulticopterConfig{}, 5, 3).errors.at(0).message.find("FRAME_CLASS 5, TYPE 3 is unknown"),
-            std::string::npos);
+  const FieldError of_class = match_motors(MulticopterConfig{}, 9, 3).errors.at(0);
+  EXPECT_EQ(of_class.text(), "'link.multicopter.frame_class': 9 is unknown; valid: 1, 2, 3, 4");
+  const FieldError of_type = match_motors(MulticopterConfig{}, 1, 99, "link").errors.at(0);
+  EXPECT_EQ(of_type.text(), "'link.frame_type': 99 is not for frame_class 1; valid: 0, 1, 12, 13, 14");
 }
 
 TEST(MotorFrames, EveryErrorOfALinkIsNamedByItsKey) {
@@ -131,6 +131,9 @@ TEST(MotorFrames, EveryErrorOfALinkIsNamedByItsKey) {
   const MulticopterLinkConfig unknown = {.frame_type = 99};
   EXPECT_THAT(paths(ArduPilotLinkConfig{.multicopter = unknown}), testing::ElementsAre("link.multicopter.frame_type"));
   EXPECT_THAT(paths(Px4LinkConfig{.frame_type = 99}), testing::ElementsAre("link.frame_type"));
+  const MulticopterLinkConfig plus = {.frame_type = 0};
+  EXPECT_THAT(paths(ArduPilotLinkConfig{.host = "foo", .multicopter = plus}), testing::ElementsAre("link.host"));
+  EXPECT_EQ(link_errors(scenario).at(0).message, "must be a numeric IPv4 address such as 127.0.0.1, got 'foo'");
 }
 
 class HelicopterPulses : public testing::Test {

@@ -94,12 +94,11 @@ TEST_F(LinkedAutopilot, RestartEndsTheFlight) {
 }
 
 TEST_F(LinkedAutopilot, RefusalEndsTheFlight) {
-  const auto end = run_against(10, [](PeerSocket& peer) {
-    peer.send(812);
-    peer.receive();
-    peer.send(812);
-    peer.send(812);
-  });
+  scenario_.link = config_;
+  double now_s = 0.0;
+  const std::vector<uint8_t> packet = servo_packet(812, 1500);
+  ArduPilotLink link(scenario_, std::make_unique<TimedSource>(std::vector(3, packet), 0.01, now_s));
+  const std::optional<LinkEnd> end = run(link, 10);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->cause, "link: it refuses our state (frame 812)");
 }
@@ -115,37 +114,14 @@ TEST_F(LinkedAutopilot, SilenceEndsTheFlight) {
   EXPECT_EQ(end->cause, "link: no new packet for 0.01 s at tick 1");
 }
 
-/// An autopilot that gets no answer, and repeats its first packet each 1.1 s of a simulated clock.
-class UnansweredSource : public PacketSource {
- public:
-  explicit UnansweredSource(double& now_s) : now_s_(now_s) {}
-  std::variant<Packet, Absence> next(int64_t /*step*/, double deadline_s) override {
-    const double next_s = sent_ ? now_s_ + 1.1 : now_s_;
-    now_s_ = std::min(next_s, deadline_s);
-    if (next_s > deadline_s) return Absence{"silent"};
-    sent_ = true;
-    return Packet{false, packet_};
-  }
-  std::optional<Packet> arrived(int64_t /*step*/) override { return std::nullopt; }
-  void answer(std::string_view) override {}
-  bool send_serial(std::span<const uint8_t>) override { return true; }
-  double now_s() const override { return now_s_; }
-  int64_t strangers() const override { return 0; }
-  std::string peer() const override { return ""; }
-  double waited_s() const override { return 0.0; }
-
- private:
-  double& now_s_;
-  bool sent_ = false;
-  std::vector<uint8_t> packet_ = servo_packet(0, 1500);
-};
-
+/// An autopilot that gets no answer repeats its packet each 1.1 s.
 TEST_F(LinkedAutopilot, RepeatsWithoutANewPacketAreSilence) {
   config_.silence_s = 30.0;
   config_.resend_s = 3.0;
   scenario_.link = config_;
   double now_s = 0.0;
-  ArduPilotLink link(scenario_, std::make_unique<UnansweredSource>(now_s));
+  const std::vector<uint8_t> packet = servo_packet(0, 1500);
+  ArduPilotLink link(scenario_, std::make_unique<TimedSource>(std::vector(100, packet), 1.1, now_s));
   const std::optional<LinkEnd> end = run(link, 10);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->cause, "link: silent at tick 1");
@@ -202,6 +178,28 @@ TEST_F(LinkedAutopilot, StateThatIsNotFiniteIsNotSent) {
   broken.body.p_WB.x() = std::nan("");
   const auto answer = link->exchange(broken);
   EXPECT_EQ(std::get<LinkEnd>(answer).cause, "link: the state is not finite at tick 1");
+}
+
+TEST_F(LinkedAutopilot, EngineOffIsAFaultInFlightButNotOnTheStand) {
+  scenario_.vehicle = dynamics::helicopter::HelicopterConfig{};  // of constant rotor speed
+  config_.helicopter = HelicopterLinkConfig{};                   // the engine is on above 1400 us
+  scenario_.link = config_;
+  const auto end_with = [this](bool on_stand) -> std::optional<LinkEnd> {
+    double now_s = 0.0;
+    ArduPilotLink link(scenario_, std::make_unique<TimedSource>(
+                                      std::vector{servo_packet(0, 1700), servo_packet(1, 1400)}, 0.001, now_s));
+    EXPECT_TRUE(std::holds_alternative<OutsideCommand>(link.exchange(input(0))));
+    OutsideInput second = input(1);
+    second.on_stand = on_stand;
+    const auto answer = link.exchange(second);
+    const auto* const end = std::get_if<LinkEnd>(&answer);
+    return end ? std::optional(*end) : std::nullopt;
+  };
+  EXPECT_FALSE(end_with(true));
+  const std::optional<LinkEnd> end = end_with(false);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::fault);
+  EXPECT_EQ(end->cause, "link: SERVO8 switched the engine off in flight at tick 1");
 }
 
 TEST_F(LinkedAutopilot, SecondPeerIsCountedAndIgnored) {
@@ -277,8 +275,8 @@ TEST_F(LinkedAutopilot, RecordingFliesAgainWithTheSameCommandsAndCounts) {
 }
 
 /// A recording has no wall times: repeats that came after a second each must not count as a refusal, which comes at
-/// once and is the last packet.
-TEST_F(LinkedAutopilot, ReplayTakesRepeatsForARefusalOnlyAtTheEnd) {
+/// once. At the end of a recording, a refusal and a silence look the same.
+TEST_F(LinkedAutopilot, ReplayEndsByRepeatsOnlyAtTheEndOfItsRecording) {
   scenario_.link = config_;
   const TemporaryFolder folder;
   const auto file = folder.path() / "repeats.bin";
@@ -291,7 +289,7 @@ TEST_F(LinkedAutopilot, ReplayTakesRepeatsForARefusalOnlyAtTheEnd) {
     return run(replay, 100)->cause;
   };
   EXPECT_EQ(end_of({0, 1, 1, 1, 1, 2, 3}), "link: the recording ends at tick 4");
-  EXPECT_EQ(end_of({0, 1, 1, 1}), "link: it refuses our state (frame 1)");
+  EXPECT_EQ(end_of({0, 1, 1, 1}), "link: the recording ends with repeats of packet 1: refused or unanswered");
 }
 
 }  // namespace

@@ -79,21 +79,22 @@ TEST_F(LinkedAutopilot, AwaitedHeartbeatNamesMavlink1) {
   EXPECT_EQ(channel.awaited(), awaited + " (MAVLink 1; valid: MAVLink 2)");
 }
 
-/// The serial line of an autopilot: a TCP server with one client.
+/// The serial line of an autopilot: a TCP server with one client, on a port that the system chooses.
 class SerialServer {
  public:
-  explicit SerialServer(uint16_t port) : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    const int on = 1;
-    ::setsockopt(listener_.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  SerialServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in name{};
     name.sin_family = AF_INET;
     name.sin_addr.s_addr = htonl(kLoopback);
-    name.sin_port = htons(port);
-    if (::bind(listener_.number(), reinterpret_cast<sockaddr*>(&name), sizeof name) != 0 ||
-        ::listen(listener_.number(), 1) != 0) {
+    auto* const general = reinterpret_cast<sockaddr*>(&name);
+    socklen_t size = sizeof name;
+    if (::bind(listener_.number(), general, size) != 0 || ::listen(listener_.number(), 1) != 0 ||
+        ::getsockname(listener_.number(), general, &size) != 0) {
       throw std::runtime_error("no serial line");
     }
+    port_ = ntohs(name.sin_port);
   }
+  uint16_t port() const { return port_; }
   void accept() { client_ = Descriptor(::accept(listener_.number(), nullptr, nullptr)); }
   void send(size_t bytes) { ::send(client_.number(), std::string(bytes, 'x').data(), bytes, MSG_NOSIGNAL); }
   /// The number of bytes that have arrived.
@@ -105,12 +106,13 @@ class SerialServer {
 
  private:
   Descriptor listener_, client_;
+  uint16_t port_ = 0;
 };
 
 TEST_F(LinkedAutopilot, MessagesArriveBeforeTheStateOfTheirStep) {
-  config_.serial_port = free_port();
+  SerialServer serial;
+  config_.serial_port = serial.port();
   scenario_.link = config_;
-  SerialServer serial(static_cast<uint16_t>(config_.serial_port));
   MarkChannel channel;
   ArduPilotLink link(scenario_, std::make_unique<SocketSource>(config_, "127.0.0.1"), &channel);
   std::vector<size_t> marks;

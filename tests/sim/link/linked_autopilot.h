@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,9 +53,41 @@ class PeerSocket {
   Address server_;
 };
 
-/// A port that no process uses.
+/// An autopilot without sockets that sends its packets at regular times of a simulated clock, whatever it receives.
+class TimedSource : public PacketSource {
+ public:
+  /// @param packets  the first one at once, each other one `pause_s` after the one before. @param now_s  of the clock,
+  /// which moves only if someone waits; it outlives the source.
+  TimedSource(std::vector<std::vector<uint8_t>> packets, double pause_s, double& now_s)
+      : packets_(std::move(packets)), pause_s_(pause_s), now_s_(now_s) {}
+
+  std::variant<Packet, Absence> next(int64_t /*step*/, double deadline_s) override {
+    const double next_s = sent_ > 0 ? now_s_ + pause_s_ : now_s_;
+    const bool silent = sent_ == packets_.size() || next_s > deadline_s;
+    now_s_ = silent ? deadline_s : next_s;
+    if (silent) return Absence{"silent"};
+    return Packet{false, packets_[sent_++]};
+  }
+  std::optional<Packet> arrived(int64_t /*step*/) override { return std::nullopt; }
+  void answer(std::string_view) override {}
+  bool send_serial(std::span<const uint8_t>) override { return true; }
+  double now_s() const override { return now_s_; }
+  int64_t strangers() const override { return 0; }
+  std::string peer() const override { return ""; }
+  double waited_s() const override { return 0.0; }
+
+ private:
+  const std::vector<std::vector<uint8_t>> packets_;
+  const double pause_s_;
+  double& now_s_;
+  size_t sent_ = 0;
+};
+
+/// A UDP port that no process uses. Processes begin at different ports, because another one may take a port after the
+/// probe.
 inline uint16_t free_port() {
-  for (uint16_t port = 20000; port < 40000; port = static_cast<uint16_t>(port + 7)) {
+  for (int number = 20000 + 7 * (::getpid() % 2000); number < 60000; number += 7) {
+    const auto port = static_cast<uint16_t>(number);
     try {
       DatagramSocket socket({kLoopback, port});
       return port;

@@ -177,6 +177,29 @@ TEST(LinkedSimulation, ClockBeginsAtTheStartAboveTheStand) {
   EXPECT_NEAR(flight.trajectory.front().p_WB_true.z(), -5.9, 0.01);
 }
 
+/// The sensors keep their state on the stand: a state that is not finite would make the estimate so.
+TEST(LinkedSimulation, StateThatIsNotFiniteBeforeTheStartIsAFaultThatNoSensorMeasures) {
+  TestAutopilot autopilot;
+  autopilot.descent_at = 200;
+  autopilot.share_down = std::numeric_limits<double>::quiet_NaN();
+  Simulation simulation(scenario_with({"link.stand_altitude=5", "link.start_radius=0.1"}), nullptr, &autopilot);
+  ASSERT_TRUE(simulation.over());
+  EXPECT_FALSE(autopilot.inputs.back().on_stand);
+  EXPECT_FALSE(simulation.truth().p_WB.allFinite());
+  EXPECT_TRUE(simulation.seen().navigation.p_WB_est.allFinite());
+  const FlightResult result = simulation.result().result;
+  EXPECT_EQ(result.outcome, Outcome::fault);
+  EXPECT_EQ(result.cause, "the vehicle's state stopped being finite at 0.000 s");
+  EXPECT_FALSE(autopilot.started);
+}
+
+TEST(LinkedSimulation, ResetIsRefusedAndTheFlightGoesOn) {
+  TestAutopilot autopilot;
+  Simulation simulation(scenario_with(), nullptr, &autopilot);
+  EXPECT_THROW(simulation.reset(), std::logic_error);
+  EXPECT_EQ(simulation.run().result.outcome, Outcome::timeout);
+}
+
 TEST(LinkedSimulation, StandInsideAnObstacleIsRefused) {
   TestAutopilot autopilot;
   EXPECT_THROW(Simulation(scenario_with({"link.stand_altitude=0"}), nullptr, &autopilot), InputError);

@@ -1,7 +1,6 @@
 #include "sim/link/recording.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,14 +9,10 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim::link {
 namespace {
-
-std::filesystem::path recording_file(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) /
-         ("link_recording_" + std::to_string(::getpid()) + "_" + name + ".bin");
-}
 
 std::vector<uint8_t> bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -25,7 +20,8 @@ std::vector<uint8_t> bytes_of(const std::filesystem::path& file) {
 }
 
 TEST(Recording, HasStepLengthAndBytesInLittleEndian) {
-  const auto file = recording_file("layout");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "link.bin";
   RecordingWriter writer(file);
   writer.add(0x0102, false, std::vector<uint8_t>{0xaa, 0xbb});
   writer.add(3, true, std::vector<uint8_t>{0xcc});
@@ -34,7 +30,8 @@ TEST(Recording, HasStepLengthAndBytesInLittleEndian) {
 }
 
 TEST(Recording, ReadsBackAsWritten) {
-  const auto file = recording_file("back");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "link.bin";
   RecordingWriter writer(file);
   for (int64_t step = 0; step < 1000; ++step) {
     writer.add(step, step % 3 == 0, std::vector<uint8_t>(static_cast<size_t>(step % 70), static_cast<uint8_t>(step)));
@@ -53,7 +50,8 @@ TEST(Recording, ReadsBackAsWritten) {
 
 TEST(Recording, MissingOrMalformedFilesAreRefusedWithTheirPlace) {
   EXPECT_THROW(RecordingReader("/absent/link.bin"), InputError);
-  const auto file = recording_file("cut");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "link.bin";
   {
     RecordingWriter writer(file);
     writer.add(0, false, std::vector<uint8_t>(40));

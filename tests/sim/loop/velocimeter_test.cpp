@@ -12,14 +12,16 @@ namespace hedgehop::sim {
 namespace {
 
 TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
-  // Half a degree of tilt unknown at the start is 0.09 m/s after a second; the optic flow must bound it.
-  constexpr double kMaxErrorMps = 0.1;
+  // Half a degree of tilt unknown at the start is 0.09 m/s after a second; the optic flow must bound it. In 8 s the
+  // error reaches 0.04 to 0.07 m/s, and 0.09 to 0.22 m/s without the velocimeter.
+  constexpr double kMaxErrorMps = 0.08;
   for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
-    const std::vector<std::string> overrides = {"duration=2", "film.enabled=false", "checks=[]",
+    const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "checks=[]",
                                                 "drawing.renderer=tiles", seed};
     const Flight flight =
         Simulation(load_scenario(std::string(HEDGEHOP_SOURCE_DIR) + "/configs/zingg2010_corridor_2m5.yaml", overrides))
             .run();
+    ASSERT_GT(flight.trajectory.size(), 700u) << seed << ": the flight ended early";
     double worst_mps = 0.0;
     for (const TrajectoryRow& row : flight.trajectory) {
       worst_mps = std::max(worst_mps, (row.v_WB_W_est - row.v_WB_W_true).head<2>().norm());

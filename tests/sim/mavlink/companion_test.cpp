@@ -49,6 +49,10 @@ struct Pair {
   void run_for(double duration_s) {
     for (const int64_t end_ns = t_ns + static_cast<int64_t>(1e9 * duration_s); t_ns < end_ns;) step();
   }
+  /// Runs until the autopilot is armed, at most for a minute.
+  void run_until_armed() {
+    for (const int64_t end_ns = t_ns + 60 * kSecondNs; !autopilot.armed && t_ns < end_ns;) step();
+  }
 
  private:
   FrameDecoder decoder_;
@@ -74,18 +78,23 @@ TEST(Companion, StartsArduPilotWhenItsFilterHasAPosition) {
 TEST(Companion, ArmsAgainAfterArduPilotDisarmedOnTheGround) {
   Pair pair({}, on_stand(AutopilotMake::ardupilot));
   pair.autopilot.refused_armings = 0;
-  while (!pair.autopilot.armed) pair.step();
-  pair.run_for(0.2);
-  pair.autopilot.took_off = pair.autopilot.armed = false;
+  pair.autopilot.refuses_take_off = true;
+  pair.run_until_armed();
+  ASSERT_TRUE(pair.autopilot.armed);
+  pair.run_for(1.5);  // a heartbeat reports it
+  pair.autopilot.armed = pair.autopilot.refuses_take_off = false;
+  pair.autopilot.commands.clear();
   pair.run_for(5.0);
-  EXPECT_TRUE(pair.autopilot.took_off || std::ranges::count(pair.autopilot.commands, 400) >= 1);
+  EXPECT_GE(std::ranges::count(pair.autopilot.commands, 400), 1);
+  EXPECT_TRUE(pair.autopilot.took_off);
 }
 
 TEST(Companion, SwitchesTheInterlockOfAHelicopterOffToArmAndOnToFly) {
   CompanionSetup setup = on_stand(AutopilotMake::ardupilot);
   setup.has_interlock = true;
   Pair pair({}, setup);
-  while (!pair.autopilot.armed) pair.step();
+  pair.run_until_armed();
+  ASSERT_TRUE(pair.autopilot.armed);
   ASSERT_FALSE(pair.autopilot.overrides.empty());
   for (const RcChannelsOverride& channels : pair.autopilot.overrides) {
     EXPECT_EQ(channels.channels[7], 1000);

@@ -203,7 +203,6 @@ TEST(DefinitionChecksum, EqualsThatOfTheGenerators) {
   EXPECT_EQ(crc_extra<OpticalFlowRad>(), 138);
   EXPECT_EQ(crc_extra<HilSensor>(), 108);
   EXPECT_EQ(crc_extra<HilGps>(), 124);
-  EXPECT_EQ(crc_extra<HilOpticalFlow>(), 237);
   EXPECT_EQ(crc_extra<HilStateQuaternion>(), 4);
   EXPECT_EQ(crc_extra<DistanceSensor>(), 85);
   EXPECT_EQ(crc_extra<EkfStatusReport>(), 71);

@@ -18,6 +18,7 @@ class ScriptedAutopilot {
 
   int64_t filter_ready_ns = 20'000'000'000;  ///< its filter has a position from then on
   int refused_armings = 2;                   ///< number of requests to arm that it refuses
+  bool refuses_take_off = false;
   uint8_t version = 3;
 
   uint32_t mode = 0;
@@ -78,7 +79,7 @@ class ScriptedAutopilot {
         armed = true;
         return kAccepted;
       case 22:
-        if (!armed || make_ == kPx4) return kDenied;
+        if (!armed || refuses_take_off || make_ == kPx4) return kDenied;
         took_off = true;
         climb_m = parameter(7);
         return kAccepted;

@@ -9,6 +9,7 @@
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
 #include "tests/sim/pages/made_up_sweep.h"
+#include "tests/sim/pages/page_data.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -263,7 +264,11 @@ TEST(CampaignReport, OfAThousandFlightsWithLongPathsStaysBelowTenMegabytes) {
     write_file_whole(folder.path() / record.order.id / "trajectory.csv", rows);
   }
   write_campaign_report(folder.path(), {});
-  EXPECT_LT(std::filesystem::file_size(folder.path() / "report.html"), 10'000'000u);
+  const std::string page = read_file_whole(folder.path() / "report.html");
+  EXPECT_LT(page.size(), 10'000'000u);
+  const auto paths = data_of(page).at("paths").at("path");
+  ASSERT_EQ(paths.size(), 1000u);
+  for (size_t i = 0; i < paths.size(); ++i) EXPECT_FALSE(paths[i].empty()) << i;
 }
 
 TEST(ReportCommand, RejectsInvalidFoldersAndOptions) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "sim/pages/campaign_data.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
 
@@ -91,13 +92,32 @@ TEST(FilmStrip, ShowsTheWorstFlightsInTheReport) {
     document.getElementById('strips-card').style.width = '300px';
     return {width: image.naturalWidth, height: image.naturalHeight, name: document.querySelector('#strips-card .name').offsetHeight,
             why: document.querySelector('#strips-card figcaption .soft').textContent,
-            boards: document.querySelectorAll('#board-card').length};)js");
+            omitted: [omittedWords(1), omittedWords(3)], boards: document.querySelectorAll('#board-card').length};)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_EQ(page.value.at("width"), 5 * 242);            // five images of 240 px and a gap
   EXPECT_EQ(page.value.at("height"), 240 * 3 / 4 + 16);  // 64 x 48 px, and a line below
   EXPECT_THAT(page.value.at("why").get<std::string>(), HasSubstr("collided (hit north wall"));
   EXPECT_EQ(page.value.at("boards"), 0);
+  EXPECT_EQ(page.value.at("omitted"),
+            Json::array({"1 film strip is not shown, because a page has at most 2.5 MB of them. It is strip.jpg in the "
+                         "folder of the flight.",
+                         "3 film strips are not shown, because a page has at most 2.5 MB of them. Each is strip.jpg in "
+                         "the folder of its flight."}));
   EXPECT_LT(page.value.at("name"), 30) << "one line next to a long cause";
+}
+
+TEST(StripsData, OmitsAndCountsStripsBeyondTheLimitOfAPage) {
+  const TemporaryFolder folder;
+  std::vector<FlightRecord> records(4);
+  for (const size_t row : {0U, 1U, 3U}) {
+    records[row].order.id = "f" + std::to_string(row);
+    std::filesystem::create_directories(folder.path() / records[row].order.id);
+    write_file_whole(folder.path() / records[row].order.id / "strip.jpg", "abc");
+  }
+  records[2].order.id = "without";
+  std::filesystem::resize_file(folder.path() / "f1/strip.jpg", 2'499'998);
+  const Json strips = strips_data(folder.path(), records);
+  EXPECT_EQ(strips, Json::parse(R"({"images": [[0, "YWJj"], [3, "YWJj"]], "omitted": 1})"));
 }
 
 TEST(FilmStrip, ShowsTheEndOfATimeout) {
@@ -119,21 +139,6 @@ TEST(FilmStrip, IsNotWrittenIfTheFlightDiffersFromTheTable) {
   EXPECT_THAT(end.err, HasSubstr("wall/seed1: no film strip: minimum clearance of the re-simulated flight"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/wall/seed1/strip.jpg"));
   EXPECT_EQ(folder.hedgehop("report out/wall/seed1 --film-strips 1").status, 2);
-}
-
-TEST(RunCommand, RemovesTheFilmOfAnEarlierFlightIfThereAreNoImages) {
-  const CampaignFolder folder;
-  folder.write("blind.yaml",
-               "name: blind\nduration: 0.2\nscene: {type: corridor, width: 10, sections: [{length: 40}]}\n"
-               "velocimeter: {enabled: false}\nvehicle: {use: " HEDGEHOP_SOURCE_DIR
-               "/configs/vehicles/hummingbird.yaml}\nstart: {north: 5, east: 0, altitude: 1.5, heading: 0}\n"
-               "goal: {north: 35, east: 0, altitude: 1.5, radius: 1}\navoidance: {module: go_to_goal, speed: 1}\n"
-               "checks: [{check: no_collision}]\n");
-  std::filesystem::create_directories(folder.path() / "out");
-  folder.write("out/video.webm", "old");
-  const CommandEnd end = folder.hedgehop("run blind.yaml --out out");
-  ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/video.webm"));
 }
 
 TEST(FilmStrip, IsRemovedIfItsFlightIsFlownAgain) {

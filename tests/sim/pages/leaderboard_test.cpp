@@ -69,6 +69,37 @@ TEST(Leaderboard, OrdersWorldsByTheFailuresOfTheModulesWithoutTheControl) {
   EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(10));
 }
 
+TEST(Leaderboard, FlightsOfABadWorldAreNeitherPlannedNorCounted) {
+  const LeaderboardFolder folder;
+  folder.write("far.yaml", folder.read("far.yaml") + "foo: 1\n");
+  ASSERT_EQ(folder.hedgehop("batch board.yaml --no-report --out out").status, 2);
+  const FlightList flights = read_flights(folder.path() / "out");
+  const Json counts = claims_data(folder.path() / "out", flights.records, {"near still", "far still"}).at("counts");
+  EXPECT_EQ(counts, Json::parse(R"({"planned": 4, "counted": 4, "passed": 2, "failed_a_check": 2, "broken": 0,
+                                    "missing": 0, "discarded": 0, "no_checks": 0})"));
+  const Json data = leaderboard_data(folder.path() / "out", flights);
+  EXPECT_TRUE(data.at("worlds").at(1).at("difficulty").is_null());
+  EXPECT_EQ(data.at("totals").at(1).at("broken"), 0);
+  EXPECT_THAT(leaderboard_text(data), HasSubstr("| far | - | missing | missing | not flown |"));
+}
+
+/// For 4 of 4 flights that pass, the Wilson interval begins at 4 / (4 + z^2). 5 flights without an event show 0.5.
+TEST(ClaimsData, RefusedFilesAreNeitherPlannedNorCounted) {
+  const CampaignFolder folder;
+  folder.write("bad.yaml", "use: tiny.yaml\nname: bad\nfoo: 1\n");
+  const auto claims = [&](const std::string& options) {
+    EXPECT_EQ(folder.hedgehop("batch bad.yaml tiny.yaml --no-report --out out " + options).status, 2);
+    return claims_data(folder.path() / "out", read_flights(folder.path() / "out").records);
+  };
+  const Json all = claims("--seeds 5:8"), stopped = claims("--seeds 5:12 --until 'collision < 0.5'");
+  EXPECT_EQ(all.at("counts"), Json::parse(R"({"planned": 4, "counted": 4, "passed": 4, "failed_a_check": 0, "broken": 0,
+                                              "missing": 0, "discarded": 0, "no_checks": 0})"));
+  EXPECT_NEAR(all.at("interval")[0].get<double>(), 4.0 / (4.0 + 1.959964 * 1.959964), 1e-6);
+  EXPECT_EQ(stopped.at("counts"),
+            Json::parse(R"({"planned": 8, "counted": 5, "passed": 5, "failed_a_check": 0, "broken": 0,
+                            "missing": 0, "discarded": 3, "no_checks": 0})"));
+}
+
 TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
   HEDGEHOP_NEEDS_BROWSER();
   const LeaderboardFolder folder;
@@ -166,6 +197,7 @@ TEST(Leaderboard, CellsNotFlownYetAreMissingAndDoNotCountForDifficulty) {
   EXPECT_EQ(data.at("worlds").at(0).at("name"), "lost");
   EXPECT_TRUE(data.at("worlds").at(1).at("difficulty").is_null());
   EXPECT_THAT(leaderboard_text(data), HasSubstr("| later | - | missing |"));
+  EXPECT_THAT(leaderboard_text(data), HasSubstr("| m | 2 | 1 | 0 | 0 of 0 | - | - |"));
   for (Json& one : data.at("cells")) one["min_clearance_m"] = -0.002;
   EXPECT_THAT(leaderboard_text(data), AllOf(HasSubstr(" 0.00 |"), Not(HasSubstr("-0.00"))));
 }
@@ -224,18 +256,6 @@ TEST(Leaderboard, ShippedFileHasEveryModuleAndAFlightOrReasonForEachCell) {
   std::ranges::replace(all, std::string("onnx_policy"),
                        std::string("cloned_policy"));  // listed under the name of the network
   EXPECT_THAT(flown, testing::UnorderedElementsAreArray(all));
-}
-
-/// The second batch reuses the flights of the first one. A failed check is a result, too.
-TEST(Batch, ResumeFliesOnlyFlightsWithoutAResult) {
-  const CampaignFolder folder;
-  const std::string worker = folder.worker("echo $seed >> flown.txt; fly \"$@\"");
-  const std::string command =
-      "batch tiny.yaml --set 'checks=[{check: reached_goal}]' --out out -j 1 --program " + worker;
-  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:2").status, 1);
-  EXPECT_EQ(folder.hedgehop(command + " --seeds 1:4 --resume").status, 1);
-  EXPECT_EQ(folder.read("flown.txt"), "1\n2\n3\n4\n");
-  EXPECT_THAT(folder.json("out/batch.json").at("flights"), testing::SizeIs(4));
 }
 
 }  // namespace

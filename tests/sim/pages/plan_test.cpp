@@ -23,7 +23,7 @@ double area_m2(const std::vector<Vector2d>& corners) {
   return 0.5 * std::abs(twice);
 }
 
-TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
+TEST(ScenePlan, ShowsRoundSolidsAsPolygonsOf32Corners) {
   const double of_circle = 16.0 * std::sin(std::numbers::pi / 16.0);  // area of the polygon in the unit circle
   const std::vector<SolidOutline> plan =
       solid_outlines({scenes::mesh::solid_of("post", scenes::mesh::Post{{3.0, 4.0, -1.0}, 0.5, 2.0}),
@@ -36,7 +36,7 @@ TEST(Plan, ShowsRoundSolidsAsPolygonsOf32Corners) {
   EXPECT_NEAR(plan[1].bottom_m, 7.0, 1e-12);
 }
 
-TEST(Plan, ShowsTheOutlineOfAPolyhedron) {
+TEST(ScenePlan, ShowsTheOutlineOfAPolyhedron) {
   const scenes::mesh::Polyhedron tip{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, -5}},
                                      {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
   const SolidOutline plan = solid_outlines({scenes::mesh::solid_of("tip", tip)}).front();
@@ -44,7 +44,7 @@ TEST(Plan, ShowsTheOutlineOfAPolyhedron) {
   EXPECT_NEAR(plan.top_m, 5.0, 1e-12);
 }
 
-TEST(Plan, ShowsThePathOfAMovingObstacleAtItsWidth) {
+TEST(ScenePlan, ShowsThePathOfAMovingObstacleAtItsWidth) {
   scenes::Mover mover;
   mover.name = "van";
   mover.motion =
@@ -53,6 +53,22 @@ TEST(Plan, ShowsThePathOfAMovingObstacleAtItsWidth) {
   const MoverPath path = mover_paths({mover}).front();
   EXPECT_EQ(path.corners_NE_m, (std::vector<Vector2d>{{1, 2}, {3, 4}, {1, 2}}));
   EXPECT_NEAR(path.radius_m, 5.0, kFloatM);
+}
+
+TEST(ScenePlan, OutlineOfARotatedBoxHasItsArea) {
+  scenes::Solid solid{.half_extents_m = {3.0, 2.0, 5.0}};
+  solid.X_WS = Eigen::Translation3d(100.0, -50.0, -5.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
+  const SolidOutline footprint = solid_outlines({solid}).front();
+  constexpr double kFloatCoordinates = 1e-2;
+  EXPECT_NEAR(area_m2(footprint.corners_NE_m), 6.0 * 4.0, kFloatCoordinates);
+  EXPECT_NEAR(footprint.bottom_m, 0.0, 1e-9);
+  EXPECT_NEAR(footprint.top_m, 10.0, 1e-9);
+}
+
+TEST(ScenePlan, CeilingIsAboveAndCurbBelowTheFlight) {
+  EXPECT_EQ(altitude_relation({.bottom_m = 3.0, .top_m = 3.2}, 0.9, 1.1, 1.0), AltitudeRelation::above);
+  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 0.2}, 9.0, 11.0, 1.0), AltitudeRelation::below);
+  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 9.5}, 9.0, 11.0, 1.0), AltitudeRelation::at_altitude);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "sim/batch/flight_table.h"
 #include "sim/config/whole_file.h"
 #include "sim/pages/campaign_data.h"
@@ -54,7 +56,7 @@ TEST(ReadNotes, CountACollisionBeforeAClearanceThatFailedEarlier) {
   EXPECT_EQ(notes[3].first_failed, "min_clearance");
 }
 
-TEST(CampaignInBrowser, DistinguishesNumbersAndNamesOfAxes) {
+TEST(CampaignPlotsInBrowser, DistinguishesNumbersAndNamesOfAxes) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   write_speeds(folder.path());
@@ -93,7 +95,7 @@ TEST(CampaignInBrowser, DistinguishesNumbersAndNamesOfAxes) {
   EXPECT_THAT(page.value.at("worst").get<std::string>(), HasSubstr("the module failed in “look”"));
 }
 
-TEST(CampaignInBrowser, KeepsGoalsAndTipsInsideANarrowWindow) {
+TEST(CampaignPlotsInBrowser, KeepsGoalsAndTipsInsideANarrowWindow) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   write_speeds(folder.path());
@@ -192,7 +194,7 @@ TEST(ReportInBrowser, NamesTheGroundIfTheFlightHitIt) {
 }
 
 /// The page must not hang.
-TEST(CampaignInBrowser, HasFewTicksForEqualNumbersAndDeepZoom) {
+TEST(CampaignPlotsInBrowser, HasFewTicksForEqualNumbersAndDeepZoom) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;
   write_speeds(folder.path());
@@ -217,7 +219,11 @@ TEST(FigureAxis, HasFewTicksForEqualNumbers) {
     EXPECT_LT(axis.low, axis.high);
     EXPECT_GE(axis.ticks.size(), 2U);
     EXPECT_LE(axis.ticks.size(), 6U);
+    std::set<std::string> words;
+    for (const FigureAxis::Tick& tick : axis.ticks) words.insert(tick.words);
+    EXPECT_EQ(words.size(), axis.ticks.size());
   }
+  EXPECT_EQ(FigureAxis::of_logarithms("x", {1.001, 1.002, 1.003}).ticks[1].words, "1.002");
 }
 
 TEST(ColumnsData, HasSeedsAsTexts) {
@@ -230,7 +236,7 @@ TEST(ColumnsData, HasSeedsAsTexts) {
   EXPECT_EQ(seeds->at("is_text"), false);
 }
 
-TEST(AgainstData, CallsATimeoutWithoutAGoalCompleted) {
+TEST(AgainstOutcome, OfATimeoutWithoutAGoalIsCompleted) {
   const TemporaryFolder folder;
   std::vector<FlightRecord> records(2);
   for (size_t i = 0; i < records.size(); ++i) {

@@ -156,7 +156,7 @@ TEST(ReplayInBrowser, ShowsTexturesLightAndTheImagesOfAllCameras) {
   write_replay(run.path(), record);
   EXPECT_LT(std::filesystem::file_size(run.path() / "replay.html"), 10'000'000);
   const PageVisit page = visit_replay(run.path(), R"js(
-    for (let i = 0; i < 100 && !replay.screens.has_images; ++i) await new Promise((done) => setTimeout(done, 100));
+    while (!replay.screens.has_images) await new Promise(requestAnimationFrame);  // browser.mjs ends a visit after 90 s
     const {surfaces, screens} = replay, box = (name) => replay.surfaces.fixed.children.map((mesh) => {
       mesh.geometry.computeBoundingBox();
       return mesh.geometry.boundingBox[name];

@@ -14,11 +14,11 @@
 
 #include "sim/config/whole_file.h"
 #include "sim/pages/panels.h"
-#include "sim/pages/plan.h"
 #include "sim/pages/report_page.h"
 #include "sim/record/flight_columns.h"
 #include "sim/record/result_files.h"
 #include "sim/scenario/flight_parts.h"
+#include "tests/sim/pages/page_data.h"
 #include "tests/sim/record/fake_flight.h"
 #include "tests/sim/record/temporary_folder.h"
 
@@ -27,30 +27,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-// --- Plan
-
-TEST(Plan, OutlineOfARotatedBoxHasItsArea) {
-  scenes::Solid solid{.half_extents_m = {3.0, 2.0, 5.0}};
-  solid.X_WS = Eigen::Translation3d(100.0, -50.0, -5.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
-  const SolidOutline footprint = solid_outlines({solid}).front();
-  double twice_area_m2 = 0.0;
-  const auto& p = footprint.corners_NE_m;
-  for (size_t i = 0; i < p.size(); ++i) {
-    const Eigen::Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
-    twice_area_m2 += a.x() * b.y() - a.y() * b.x();
-  }
-  constexpr double kFloatCoordinates = 1e-2;
-  EXPECT_NEAR(std::abs(twice_area_m2) / 2.0, 6.0 * 4.0, kFloatCoordinates);
-  EXPECT_NEAR(footprint.bottom_m, 0.0, 1e-9);
-  EXPECT_NEAR(footprint.top_m, 10.0, 1e-9);
-}
-
-TEST(Plan, CeilingIsAboveAndCurbBelowTheFlight) {
-  EXPECT_EQ(altitude_relation({.bottom_m = 3.0, .top_m = 3.2}, 0.9, 1.1, 1.0), AltitudeRelation::above);
-  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 0.2}, 9.0, 11.0, 1.0), AltitudeRelation::below);
-  EXPECT_EQ(altitude_relation({.bottom_m = 0.0, .top_m = 9.5}, 9.0, 11.0, 1.0), AltitudeRelation::at_altitude);
-}
 
 // --- Panels
 
@@ -234,13 +210,6 @@ TEST(ReportPage, FilmIsEmbeddedOrLinkedOrAbsent) {
   EXPECT_THAT(report_page("t", "{}", {}), Not(HasSubstr("<video")));
 }
 
-/// Returns the JSON data of a page.
-nlohmann::json data_of(const std::string& page) {
-  const std::string open = "id=\"data\">";
-  const size_t begin = page.find(open) + open.size();
-  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
-
 TEST(Report, DrawsTheSceneThatWasFlown) {
   const TemporaryFolder folder;
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
@@ -288,7 +257,7 @@ TEST(Report, NamesAMissingFile) {
     read_run(folder.path());
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("result.json: No such file"));
+    EXPECT_THAT(error.what(), HasSubstr("result.json: there is no such file"));
   }
 }
 

@@ -29,7 +29,8 @@ const Words kFatal = {"exit",     "end_at_once", "end_quickly", "end_thread", "t
 const Words kEndless = {"hang", "allocate", "stop"};
 const Words kHarmless = {"change_folder", "fork", "print"};
 
-/// Returns every action in every place if requested (scripts/soak), otherwise a part with each action and each place.
+/// Returns every action in every place if requested (scripts/soak), otherwise a part: some actions in each place and,
+/// if there are at least four places, each action.
 std::vector<Attack> attacks(const Words& hows, const std::vector<Words>& places) {
   const bool all = std::getenv("HEDGEHOP_ATTACKS") != nullptr;
   std::vector<Attack> list;
@@ -104,6 +105,7 @@ TEST_F(HostileModule, CannotChangeTheFlightInItsImageOrItsEnd) {
   for (const Words& hows : {kFatal, kEndless, Words{"raise_exception", "change_state"}}) {
     for (const Attack& attack : attacks(hows, {kWithoutEffect})) expect_no_effect(attack);
   }
+  expect_no_effect({"change_state", "annotate"});  // the part has it in `end` only
 }
 
 TEST_F(HostileModule, CannotChangeTheFolderTheOutputOrTheProcessesOfTheSimulator) {

@@ -86,7 +86,7 @@ TEST_F(Plugin, ASignalCannotTakeAColumnOfTheRecord) {
   const Table columns = decision_columns(Flight{});
   for (const std::string& column : columns.names()) {
     const avoidance::Signal signal{column, ""};
-    EXPECT_THAT(signal_fault({&signal, 1}), HasSubstr("is a column of the record itself")) << column;
+    EXPECT_THAT(signal_fault({&signal, 1}), HasSubstr("has the name of a column of decisions.csv")) << column;
   }
   for (const std::string name : {"", "a/b", "..", "two\nlines"}) {
     const avoidance::Signal signal{name, ""};
@@ -101,6 +101,7 @@ TEST_F(Plugin, InABatchTheOthersFlyOn) {
   const CommandEnd end = folder.hedgehop("batch tiny.yaml plug.yaml --seeds 1:2 --out out");
   EXPECT_EQ(end.status, 1) << end.err;
   const auto batch = folder.json("out/batch.json");
+  ASSERT_EQ(batch["flights"].size(), 4u);
   for (const auto& flight : batch["flights"]) {
     const bool ours = flight["group"] == "tiny";
     EXPECT_EQ(flight["result"]["outcome"] == "fault", !ours) << flight["id"];

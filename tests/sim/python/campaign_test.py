@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -34,15 +35,27 @@ class Campaigns(unittest.TestCase):
     def test_a_batch_shows_its_progress_on_standard_error(self):
         for progress, expected in ((True, 2), (False, 0)):
             shown = io.StringIO()
-            with contextlib.redirect_stderr(shown):
+            with contextlib.redirect_stderr(shown), warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # a build without npm writes no page and warns
                 hedgehop.batch(CITY, self.out, seeds="1:2", set={**SHORT, "duration": 0.2}, jobs=1, progress=progress)
             self.assertEqual(len(shown.getvalue().splitlines()), expected, shown.getvalue())
-        self.assertNotIn("1/2", shown.getvalue())
 
     def test_a_warning_of_the_program_is_a_warning_of_python(self):
         unchecked = {**SHORT, "duration": 0.2, "checks": []}
         with self.assertWarnsRegex(UserWarning, "1 of 1 flights timed out before the goal"):
             hedgehop.batch(CITY, self.out, set=unchecked, jobs=1, progress=False)
+
+    def test_each_notice_of_the_program_is_a_warning_of_python(self):
+        folder = pathlib.Path(self.scratch.name) / "scenarios"
+        folder.mkdir()
+        (folder / "notes.txt").write_text("no scenario\n")
+        (folder / "city.yaml").write_text(f"name: city\nuse: {CITY}\n")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            hedgehop.batch(folder, self.out, set={**SHORT, "duration": 0.2}, jobs=1, progress=False)
+        texts = [str(warning.message) for warning in caught]
+        self.assertIn(f"{folder}: left out: notes.txt (not .yaml or .yml)", texts)
+        self.assertFalse([text for text in texts if not text or text.startswith("1/1")], texts)
 
     def test_tables_are_read_as_utf_8_in_any_locale(self):
         scenario = pathlib.Path(self.scratch.name) / "café.yaml"
@@ -71,6 +84,11 @@ class Campaigns(unittest.TestCase):
             hedgehop.batch(CITY, self.out, set={"duraton": 1})
         with self.assertRaisesRegex(FileNotFoundError, "no result.json, batch.csv or sweep.csv"):
             hedgehop.load(self.scratch.name)
+        cut = pathlib.Path(self.scratch.name) / "cut"
+        cut.mkdir()
+        (cut / "result.json").write_text("{\n")
+        with self.assertRaisesRegex(ValueError, r"cut/result.json:\d:\d: is not complete JSON$"):
+            hedgehop.load(cut)
 
     def test_a_table_keeps_texts_numbers_and_gaps(self):
         table = read_table('a,b,c\n1,"x, y",\n2,z,3e-1\n')

@@ -4,9 +4,11 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 
 SOURCE = pathlib.Path(os.environ["HEDGEHOP_SOURCE"])
 PROGRAM = os.environ["HEDGEHOP_PROGRAM"]
+VERSION = f"{sys.version_info.major}.{sys.version_info.minor}"  # of Python
 CITY = SOURCE / "configs/garratt2009_city_0_light.yaml"
 TREE = SOURCE / "configs/andert2007_tree_160.yaml"
 SHORT = {"duration": 1, "film.enabled": False, "drawing.renderer": "tiles"}

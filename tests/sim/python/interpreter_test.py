@@ -6,9 +6,8 @@ import sys
 import tempfile
 import unittest
 
-from flights import CITY, SHORT, run_program
+from flights import CITY, SHORT, VERSION, run_program
 
-VERSION = f"{sys.version_info.major}.{sys.version_info.minor}"
 PREFIX = "import sys\n\n\nclass Prefix:\n    def __init__(self):\n        raise ValueError(sys.prefix)\n"
 
 

@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import select
 import signal
 import subprocess
 import tempfile
@@ -13,7 +14,7 @@ import numpy as np
 
 import hedgehop
 import hedgehop.testing
-from flights import CITY, PROGRAM, SHORT, SOURCE, STRAIGHT, TREE, run_program, steady
+from flights import CITY, PROGRAM, SHORT, SOURCE, STRAIGHT, TREE, VERSION, run_program, steady
 
 MODULES = pathlib.Path(__file__).with_name("modules_in_a_file.py").read_text()
 
@@ -90,8 +91,30 @@ class FromFile(unittest.TestCase):
                 with self.assertRaisesRegex(hedgehop.InputError, text.replace("'", ".")):
                     hedgehop.Simulation(CITY, set=values)
 
+    def test_faults_of_a_module_file_have_no_python_around_them(self):
+        broken = self.folder / "syn.py"
+        broken.write_text("x = 1 +\n")
+        _, _, said = run_program(CITY, {**SHORT, "avoidance": {"python": str(broken), "class": "A"}}, self.folder / "bad")
+        self.assertIn(f"{broken}:1: SyntaxError: invalid syntax", said)
+        self.assertNotIn("^", said)
+        _, _, said = run_program(CITY, self.python("GoToGaol"), self.folder / "bad")
+        self.assertIn("has no class 'GoToGaol'", said)
+        self.assertNotIn("ValueError", said)
+        self.assertNotIn("Refusal", said)
+
+    def test_a_signal_with_the_name_of_a_column_is_refused(self):
+        class Clock:
+            signals = {"t_s": "s"}
+
+            def update(self, observation):
+                return hedgehop.Decision(hedgehop.HoverCommand(), "", [0.0])
+
+        with self.assertRaisesRegex(hedgehop.InputError, "^'avoidance': the module's signal 't_s' has the name of a column of decisions.csv; rename it"):
+            hedgehop.Simulation(CITY, module=Clock, set=SHORT)
+
     def test_declarations_of_a_class_are_checked_before_the_flight(self):
         for class_name, text in (("NeedsAText", "'needs' must be a list of cameras, each its role or a CameraNeed, got 'front'"),
+                                 ("NeedsANumber", "'needs' must be a list of cameras, each its role or a CameraNeed, got 5"),
                                  ("NeedsWhatIsNotThere", "needs a camera 'forward', which the rig does not have; it has: left, right"),
                                  ("NeedsWhatIsNotThere", "needs camera 'front' to deliver depth images; it delivers grey images"),
                                  ("TakesNoSetup", "the module cannot be reset: TypeError: TakesNoSetup.reset() takes 1 positional argument"),
@@ -132,10 +155,14 @@ class FromFile(unittest.TestCase):
     def test_an_interrupt_ends_the_program_and_is_not_a_fault(self):
         awake = self.folder / "awake"
         os.mkfifo(awake)
+        reader = os.open(awake, os.O_RDONLY | os.O_NONBLOCK)
+        self.addCleanup(os.close, reader)
         flying = subprocess.Popen([PROGRAM, "run", CITY, "--renderer", "tiles", "--no-video", "--no-report", "--out", self.folder / "interrupted", "--set",
                                    f"avoidance={{python: {self.file}, class: Sleeps}}"], stderr=subprocess.DEVNULL,
                                   env={**os.environ, "AWAKE": str(awake)}, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-        self.assertIn("awake", awake.read_text(), "it never decided")
+        while flying.poll() is None and not select.select([reader], [], [], 0.1)[0]:
+            pass
+        self.assertIn(b"awake", os.read(reader, 16), "it never decided")
         flying.send_signal(signal.SIGINT)
         flying.communicate()
         self.assertEqual(flying.returncode, -signal.SIGINT)
@@ -153,8 +180,9 @@ class FromFile(unittest.TestCase):
         other.parent.mkdir()
         other.write_text("#!/bin/sh\nexit 1\n")
         other.chmod(0o755)
-        (self.folder / "lib/python3.11").mkdir(parents=True)
-        (self.folder / "lib/python3.11/os.py").write_text("raise ImportError('not this one')\n")
+        library = self.folder / f"lib/python{VERSION}"
+        library.mkdir(parents=True)
+        (library / "os.py").write_text("raise ImportError('not this one')\n")
         path = {"PATH": f"{other.parent}:{os.environ['PATH']}"}
         _, result, said = run_program(CITY, self.python("GoToGoal"), self.folder / "path", environment=path)
         self.assertIsNotNone(result, said)

@@ -56,6 +56,10 @@ class NeedsAText(Prints):
     needs = "front"
 
 
+class NeedsANumber(Prints):
+    needs = 5
+
+
 class NeedsWhatIsNotThere(Prints):
     needs = ["forward", hedgehop.CameraNeed("front", "depth")]
 

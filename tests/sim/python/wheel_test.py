@@ -13,7 +13,7 @@ import unittest
 import zipfile
 
 import hedgehop
-from flights import PROGRAM, SOURCE
+from flights import PROGRAM, SOURCE, VERSION
 from interpreter_test import PREFIX
 
 PACKAGE = pathlib.Path(hedgehop.__file__).parent
@@ -29,7 +29,6 @@ echo cmake "$@" >> arguments
 [ "$1" = --build ] || exit 0
 mkdir -p "$2/python" && ln -s "$PACKAGE" "$2/python/hedgehop"
 """
-VERSION = f"{sys.version_info.major}.{sys.version_info.minor}"
 
 
 class Wheel(unittest.TestCase):

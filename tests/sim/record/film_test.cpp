@@ -123,6 +123,32 @@ TEST(Film, FullDiskIsAnErrorWithTheFile) {
   EXPECT_THAT(error_of(action), AllOf(HasSubstr("video.webm"), HasSubstr("No space left on device")));
 }
 
+TEST(ContactSheet, HasThreeFramesPerRowOrTwoRowsIfOneIsVeryWide) {
+  const auto size_of = [](size_t count, cv::Size size_px) {
+    const avoidance::CameraFrame frame{.role = "front", .image = cv::Mat(size_px, CV_8UC1, cv::Scalar(90))};
+    return contact_sheet(std::vector<avoidance::CameraFrame>(count, frame)).size();
+  };
+  EXPECT_EQ(size_of(0, {}), cv::Size());
+  EXPECT_EQ(size_of(3, {100, 120}), cv::Size(300, 120));
+  EXPECT_EQ(size_of(5, {100, 120}), cv::Size(300, 240));
+  EXPECT_EQ(size_of(3, {320, 240}), cv::Size(640, 480)) << "one row of 960 x 240 px would be very wide";
+}
+
+TEST(ContactSheet, ShowsColorsAndDepthFromWhiteAt0MetersToBlackFrom50Meters) {
+  std::vector<avoidance::CameraFrame> frames;
+  for (const float depth_m : {0.0f, 25.0f, 50.0f, 80.0f}) {
+    frames.push_back({.role = "depth", .image = cv::Mat(120, 100, CV_32FC1, cv::Scalar::all(depth_m))});
+  }
+  frames.push_back({.role = "color", .image = cv::Mat(120, 100, CV_8UC3, cv::Scalar(200, 30, 10))});
+  const cv::Mat sheet = contact_sheet(frames);
+  const auto at = [&](int row, int column) { return sheet.at<cv::Vec3b>(120 * row + 100, 100 * column + 50); };
+  EXPECT_EQ(at(0, 0), cv::Vec3b::all(255));
+  EXPECT_NEAR(at(0, 1)[0], 127.5, 1.0);
+  EXPECT_EQ(at(0, 2), cv::Vec3b::all(0));
+  EXPECT_EQ(at(1, 0), cv::Vec3b::all(0));
+  EXPECT_EQ(at(1, 1), cv::Vec3b(200, 30, 10));
+}
+
 TEST(FilmWatcher, WritesTimeStatusAndClearanceBelowTheImageOnly) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "video.webm";

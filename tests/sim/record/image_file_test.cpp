@@ -50,6 +50,15 @@ TEST(ImageFile, LabelsBeyondSixteenBitsAreErrors) {
   EXPECT_THROW(labels_16bit(labels), std::runtime_error);
 }
 
+TEST(ImageFile, DepthInMillimetersIsZeroBeyondItsRangeInTheSkyAndIfUnknown) {
+  const cv::Mat depth_m = (cv::Mat_<float>(1, 6) << 0.0014f, 1.2344f, 65.5f, 65.6f,
+                           std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN());
+  const cv::Mat expected_mm = (cv::Mat_<uint16_t>(1, 6) << 1, 1234, 65'500, 0, 0, 0);
+  const cv::Mat mm = depth_mm(depth_m);
+  ASSERT_EQ(mm.type(), CV_16UC1);
+  EXPECT_EQ(cv::norm(mm, expected_mm, cv::NORM_INF), 0.0) << mm;
+}
+
 TEST(ImageFile, ErrorsNameTheFile) {
   const cv::Mat image(4, 4, CV_8UC1, cv::Scalar(0));
   EXPECT_THAT([&] { write_png("/no/such/folder/a.png", image); },

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
-#include <opencv2/imgproc.hpp>
 #include <random>
 #include <string>
 #include <utility>
@@ -10,6 +8,7 @@
 
 #include "sim/scenario/rig.h"
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/spot_image.h"
 #include "tests/sim/render/tested_renderer.h"
 #include "tests/sim/render/whole_fisheye.h"
 #include "tests/vision/camera/random_lenses.h"
@@ -26,15 +25,7 @@ Camera ocam() { return Camera(vision::camera::parse_ocam_calibration(vision::kSm
 
 /// A white spot, 1 m wide, on the plane x = 0 that fades to black, seen from the south, in front of black.
 SmallWorld spot() {
-  cv::Mat dome(64, 64, CV_8UC3);
-  for (int row = 0; row < 64; ++row) {
-    for (int col = 0; col < 64; ++col) {
-      const double r = std::hypot(col - 31.5, row - 31.5) / 31.0;
-      const double level = r < 1.0 ? 127.5 * (1.0 + std::cos(std::numbers::pi * r)) : 0.0;
-      dome.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
-    }
-  }
-  SmallWorld world(std::vector{dome});
+  SmallWorld world(std::vector{spot_image(64)});
   world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
   world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
   world.add_quad({0, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1});
@@ -48,11 +39,6 @@ Eigen::Isometry3d facing(const Eigen::Vector3d& ray_C, double distance_m, double
   const Eigen::Vector3d north = Eigen::Vector3d::UnitX();
   X_WC.linear() = (Eigen::AngleAxisd(roll_rad, north) * Eigen::Quaterniond::FromTwoVectors(ray_C, north)).matrix();
   return X_WC;
-}
-
-Eigen::Vector2d centroid(const cv::Mat& grey) {
-  const cv::Moments moments = cv::moments(grey);
-  return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
 /// Returns the root mean square distance between drawn spots and the projections of their centers over the whole image.

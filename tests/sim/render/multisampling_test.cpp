@@ -117,7 +117,7 @@ TEST(Multisampling, IsRejectedIfTheRendererLacksTheNumberOfSamples) {
   EXPECT_EQ(fault(4), "");
   EXPECT_THAT(fault(8), testing::HasSubstr("maximum of this OpenGL: 4"));  // Mesa's rasterizer supports 1 and 4 only
   EXPECT_THAT(fault(2), testing::HasSubstr("this OpenGL uses 4"));
-  EXPECT_THAT(fault(3), testing::HasSubstr("valid: 1, 2, 4, 8"));
+  EXPECT_THAT(fault(3), testing::HasSubstr("3 samples per pixel; valid: 1, 2, 4, 8"));
   cv::Mat image;
   EXPECT_THROW(renderer.draw(view_of(kSampledCamera, ImageChannel::grey, 8), image), std::invalid_argument);
 }

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
-#include <opencv2/imgproc.hpp>
+#include <limits>
 
 #include "tests/sim/render/small_world.h"
+#include "tests/sim/render/spot_image.h"
 #include "tests/sim/render/tested_renderer.h"
 
 namespace hedgehop::sim {
@@ -12,19 +12,6 @@ namespace {
 
 constexpr double kSubPixel =
     0.05;  // about ten times the error from 8-bit levels and the 1/256 px grid of the rasterizer
-
-/// Returns an image that is white at the center and fades to black before the sides.
-cv::Mat dome_image(int size_px) {
-  cv::Mat image(size_px, size_px, CV_8UC3);
-  for (int row = 0; row < size_px; ++row) {
-    for (int col = 0; col < size_px; ++col) {
-      const double r = std::hypot(col - 0.5 * (size_px - 1), row - 0.5 * (size_px - 1)) / (0.48 * size_px);
-      const double level = r < 1.0 ? 127.5 * (1.0 + std::cos(std::numbers::pi * r)) : 0.0;
-      image.at<cv::Vec3b>(row, col) = cv::Vec3b::all(cv::saturate_cast<uint8_t>(level));
-    }
-  }
-  return image;
-}
 
 vision::camera::PinholeCamera random_camera(std::mt19937_64& random) {
   const int width = 100 + static_cast<int>(random() % 300), height = 100 + static_cast<int>(random() % 300);
@@ -45,11 +32,6 @@ Eigen::Vector2d expected_pixel(const CameraView& view, const Eigen::Vector3d& p_
   return {camera.focal_x_px * x / z + camera.center_u_px, camera.focal_y_px * y / z + camera.center_v_px};
 }
 
-Eigen::Vector2d bright_centroid(const cv::Mat& grey) {
-  const cv::Moments moments = cv::moments(grey);
-  return {moments.m10 / moments.m00, moments.m01 / moments.m00};
-}
-
 // The centroid of a spot parallel to the image plane is the projection of its center, for any lens and pose.
 TEST(Projection, DrawsPointsAtTheirExpectedPixels) {
   std::mt19937_64 random(11);
@@ -65,35 +47,18 @@ TEST(Projection, DrawsPointsAtTheirExpectedPixels) {
                  height_m = 40.0 * z_m / view.camera.pinhole().focal_y_px;
     const Eigen::Vector3d right_W = width_m * view.X_WC.linear().col(0), down_W = height_m * view.X_WC.linear().col(1);
 
-    SmallWorld world(std::vector{dome_image(64)});
+    SmallWorld world(std::vector{spot_image(64)});
     world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
     world.scene.lights = {.ambient = 1.0f, .sun = 0.0f};
     const Eigen::Vector3d top_left_W = center_W - 0.5 * (right_W + down_W);
     world.add_quad(top_left_W.cast<float>(), right_W.cast<float>(), down_W.cast<float>());
     make_renderer(world.scene).draw(view, grey);
 
-    const double error_px = (bright_centroid(grey) - expected_pixel(view, center_W)).norm();
+    const double error_px = (centroid(grey) - expected_pixel(view, center_W)).norm();
     EXPECT_LT(error_px, kSubPixel) << "trial " << trial << ", z " << z_m;
     sum_squares += error_px * error_px;
   }
   RecordProperty("rms_px", std::to_string(std::sqrt(sum_squares / 60)));
-}
-
-TEST(Projection, StereoPairShowsAPointOnOneRowAtItsDisparity) {
-  SmallWorld world(std::vector{dome_image(64)});
-  world.scene.sky = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
-  world.add_quad({12.0f, 0.3f, -6.0f}, {0, 1.2f, 0}, {0, 0, 1.2f});
-  Renderer renderer = make_renderer(world.scene);
-  const auto camera = vision::camera::PinholeCamera::from_fov(320, 240, 1.0);
-  const Eigen::Isometry3d X_WC = look_at({0, 0, -5}, {1, 0, -5});
-  const double baseline_m = 0.5;
-  const Eigen::Isometry3d X_WCr = X_WC * Eigen::Translation3d(baseline_m, 0, 0);
-  cv::Mat left, right;
-  renderer.draw({camera, X_WC, ImageChannel::grey}, left);
-  renderer.draw({camera, X_WCr, ImageChannel::grey}, right);
-  const Eigen::Vector2d shift_px = bright_centroid(left) - bright_centroid(right);
-  EXPECT_NEAR(shift_px.y(), 0.0, 0.01);
-  EXPECT_NEAR(shift_px.x(), camera.focal_x_px * baseline_m / 12.0, kSubPixel);
 }
 
 // North-east-down, camera to the north: east is right, up is up, and the first row of a texture is the top row.

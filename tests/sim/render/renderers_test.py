@@ -66,6 +66,8 @@ class Renderers(unittest.TestCase):
                 done = self.hedgehop(*flight, missing=[renderer])
                 self.require_refused(done, renderer)
                 self.assertEqual(len(done.stderr.splitlines()), 1)
+                self.assertIn(f"{FILES[renderer]} cannot be loaded: ", done.stderr)  # an empty file is not absent
+                self.assertNotIn("; install ", done.stderr)
 
     def test_the_default_renderer_is_never_replaced(self):
         self.require_refused(self.hedgehop("run", SCENARIO, *SHORT, "--no-video", "--out", "flight", missing=["osmesa"]), "osmesa")

@@ -24,9 +24,9 @@ using ::testing::IsEmpty;
 
 const std::filesystem::path kPapers = HEDGEHOP_SOURCE_DIR "/configs/papers";
 
-std::vector<std::string> faults_of(const std::string& text) {
+std::vector<std::string> faults_of(const std::string& text, const std::string& tuned_on = "tuned_on: none\n") {
   const TemporaryFolder folder;
-  write_file_whole(folder.path() / "paper.yaml", "title: A\nsource: B\ntuned_on: none\n" + text);
+  write_file_whole(folder.path() / "paper.yaml", "title: A\nsource: B\n" + tuned_on + text);
   try {
     read_paper(folder.path() / "paper.yaml");
   } catch (const InputError& error) {
@@ -100,19 +100,10 @@ TEST(PaperFile, ContradictionsAreRefused) {
 }
 
 TEST(PaperFile, TuningSeedsAreRefusedAsJudgingSeeds) {
-  const TemporaryFolder folder;
-  const auto faults = [&](const std::string& text) -> std::vector<std::string> {
-    write_file_whole(folder.path() / "p.yaml", "title: A\nsource: B\n" + text);
-    try {
-      read_paper(folder.path() / "p.yaml");
-    } catch (const InputError& error) {
-      return error.errors();
-    }
-    return {};
-  };
+  const auto faults = [](const std::string& text) { return faults_of(text, ""); };
   EXPECT_THAT(faults("flights: [{scenario: a.yaml, seeds: 1:2}]"), Contains(HasSubstr("missing key 'tuned_on'")));
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 10:12}]"),
-              Contains(AllOf(HasSubstr("p.yaml:4:"), HasSubstr("seed 10"))));
+              Contains(AllOf(HasSubstr("paper.yaml:4:"), HasSubstr("seed 10"))));
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12}]"), IsEmpty());
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12, tuned_on: 12}]"),
               Contains(HasSubstr("seed 12")));

@@ -13,6 +13,7 @@
 namespace hedgehop::sim {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -209,6 +210,33 @@ TEST(CalibratedRig, APoseStatedTwiceIsRefused) {
   EXPECT_THAT(faults("cameras", camera + quaternion + ", roll: 3"), twice("roll", "quaternion"));
   EXPECT_THAT(faults("cameras", camera + quaternion + ", down: 1"), ElementsAre());
   EXPECT_THAT(faults("stereo", matrix + ", forward: 1"), twice("forward", "body_from_camera"));
+}
+
+// The place of an error is a key that the user wrote: that of the camera, or the rig's `calibration`.
+TEST(CalibratedRig, ErrorsOfTheRigsFileNameKeysOfTheRig) {
+  Folder folder;
+  Folder::write("chain.yaml", kFront);
+  const auto faults = [](const std::string& keys) {
+    return faults_of([&] { flown("{calibration: chain.yaml, cameras: [{role: front, " + keys + "}]}"); });
+  };
+  EXPECT_THAT(faults("forward: 1, yaw: 3, quaternion: [1, 0, 0, 0]"),
+              ElementsAre(HasSubstr("'rig.cameras.0.yaw': 'quaternion' states the pose already")));
+  EXPECT_THAT(faults("model: fisheye"), ElementsAre(HasSubstr("'rig.cameras.0.model': differs from that of the")));
+  EXPECT_THAT(faults("fov: 60"), ElementsAre(HasSubstr("'rig.calibration': camera 'front': defines the lens")));
+  std::string sheared = kFront;
+  sheared.replace(sheared.find("0, 0, 0, 1"), 10, "0, 0, 1, 1");
+  Folder::write("chain.yaml", sheared);
+  EXPECT_THAT(faults("rate: 30"), ElementsAre(HasSubstr("'rig.calibration': camera 'front': camera_from_imu: its last "
+                                                        "row must be 0 0 0 1")));
+}
+
+TEST(CalibratedRig, EachErrorOfAFileIsALine) {
+  Folder folder;
+  Folder::write("twice.yaml", "a: 1\na: 2\nb: 1\nb: 2\n");
+  EXPECT_THAT(
+      faults_of([] { flown("{cameras: [{role: front, calibration: twice.yaml}]}"); }),
+      ElementsAre(AllOf(HasSubstr("'rig.cameras.0.calibration': "), HasSubstr("twice.yaml:2:1: duplicate key")),
+                  AllOf(HasSubstr("'rig.cameras.0.calibration': "), HasSubstr("twice.yaml:4:1: duplicate key"))));
 }
 
 TEST(CalibratedRig, KeysThatContradictItAreRefused) {

@@ -167,7 +167,8 @@ TEST(CalibrationFile, RefusesOtherFilesWithLineAndValidValues) {
   EXPECT_THAT(fault_of_calibration("a: 1"), HasSubstr("valid: Kalibr's camera chain"));
   EXPECT_THAT(fault_of_calibration("M1: [1, 0, 0, 0, 1, 0, 0, 0, 1]"), HasSubstr("camera_matrix (or cameraMatrix, K)"));
   EXPECT_THAT(fault_of_calibration(""), HasSubstr("calibration"));
-  EXPECT_THAT(fault_of_calibration("<opencv_storage><a>"), HasSubstr("cannot be read as XML"));
+  EXPECT_EQ(fault_of_calibration("<opencv_storage><a>"),
+            "calibration: is not complete XML, or is not a file of cv::FileStorage (<opencv_storage>)");
   EXPECT_THAT(fault_of_calibration(opencv("1, 2, 3")), HasSubstr("calibration:11:4: a pinhole has"));
   EXPECT_THAT(fault_of_calibration(opencv("1, x, 3, 4")), HasSubstr("expected a number, got 'x'"));
   EXPECT_THAT(fault_of_calibration(kalibr("pinhole", "460, 461, 320", "radtan", "0, 0, 0, 0")),

@@ -60,7 +60,7 @@ TEST(Failures, MustFitTheirTimesModesAndValues) {
   EXPECT_THAT(faults_with("[{at: 5, what: gps, mode: noise, value: -1}]"),
               ElementsAre(HasSubstr("at least 0, got -1")));
   EXPECT_THAT(faults_with("[{at: 5, what: height_sensor, mode: bias, value: 1, axis: y}]"),
-              ElementsAre(HasSubstr("no such axis")));
+              ElementsAre(HasSubstr("'y' is not an axis of height_sensor bias; valid: x")));
 }
 
 TEST(Failures, OfOneThingMustNotOverlap) {

@@ -31,16 +31,18 @@ TEST(Formula, BindsNotBeforeUntilBeforeAndBeforeOrBeforeImplies) {
 
 TEST(Formula, ParenthesesHoldNumbersAndFormulas) {
   EXPECT_EQ(fault("((clearance) + 1) * 2 >= 3 and ((speed < 2))"), "");
-  EXPECT_THAT(fault("(speed < 2) + 1 >= 0"), HasSubstr("expected a number, not something that holds"));
+  EXPECT_EQ(fault("(speed < 2) + 1 >= 0"), "column 1: a comparison cannot be used as a number");
+  EXPECT_EQ(fault("1 + abs((speed < 2)) > 2"), "column 9: a comparison cannot be used as a number");
+  EXPECT_EQ(fault("(speed > 1) > 2"), "column 1: a comparison cannot be used as a number");
   EXPECT_THAT(fault("always (speed)"), HasSubstr("expected a comparison"));
 }
 
 TEST(Formula, FaultsNameTheColumnAndTheNearestSignal) {
   EXPECT_THAT(fault("always (clearence >= 1)"),
               HasSubstr("column 9: no signal 'clearence'; did you mean 'clearance'?"));
-  EXPECT_THAT(fault("always[5,2] (speed < 2)"), HasSubstr("an interval from 5 s ends before, at 2 s"));
+  EXPECT_EQ(fault("always[5,2] (speed < 2)"), "column 10: the interval ends at 2 s, before its start at 5 s");
   EXPECT_THAT(fault("always[-1,2] (speed < 2)"), HasSubstr("column 8: expected a time of at least 0 s, got '-'"));
-  EXPECT_THAT(fault("speed <"), HasSubstr("column 8: expected a number or a signal, got its end"));
+  EXPECT_THAT(fault("speed <"), HasSubstr("column 8: expected a number or a signal, got the end of the formula"));
   EXPECT_THAT(fault("speed < 1e999"), HasSubstr("expected a finite number"));
   EXPECT_THAT(fault("speed < 2 speed"), HasSubstr("column 11: expected the formula's end, got 'speed'"));
   EXPECT_THAT(fault("status > 2"), HasSubstr("'status' takes == or !="));

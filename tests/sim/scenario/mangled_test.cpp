@@ -47,7 +47,7 @@ constexpr std::string_view kYamlBits[] = {"[",
                                           "module: go_to_goal"};
 
 /// Bytes inserted, removed, changed or repeated.
-TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
+TEST(MangledScenarios, MutatedScenariosLoadOrThrowInputError) {
   Folder folder;
   const std::string original = text_of(kConfigs / "garratt2009_city_0.yaml");
   for (const char* used : {"rigs/garratt2009_400.yaml", "sensors/day.yaml", "vehicles/electric_helicopter_8kg.yaml"}) {
@@ -93,7 +93,7 @@ TEST(Fuzz, MutatedScenariosLoadOrThrowInputError) {
 }
 
 /// Every key of a whole scenario, each with values of every kind.
-TEST(Fuzz, AnyValueForAnyKeyLoadsOrThrowsInputError) {
+TEST(MangledScenarios, AnyValueForAnyKeyLoadsOrThrowsInputError) {
   Folder folder;
   Folder::write("whole.yaml", to_yaml(load_scenario(kConfigs / "garratt2009_city_0.yaml")));
   ErrorList faults("scenario");

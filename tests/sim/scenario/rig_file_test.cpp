@@ -87,7 +87,7 @@ TEST(RigFile, RefusesKeysThatDoNotGoTogether) {
   Folder folder;
   EXPECT_EQ(refusal("fov: 90"), "");
   EXPECT_EQ(refusal("samples: 8"), "");
-  EXPECT_THAT(refusal("samples: 6"), HasSubstr("samples: valid: 1, 2, 4, 8"));
+  EXPECT_THAT(refusal("samples: 6"), HasSubstr("samples: must be 1, 2, 4 or 8, got 6"));
   EXPECT_THAT(refusal("fov: 180"), HasSubstr("fov: a pinhole shows less than 180 deg"));
   EXPECT_THAT(refusal("distortion: [1, 2, 3]"), HasSubstr("distortion: a pinhole takes"));
   EXPECT_THAT(refusal("model: fisheye, distortion: [1]"), HasSubstr("distortion: a fisheye takes"));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/fields/quantities.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -16,7 +18,6 @@ void expect_axes(const CameraConfig& camera, const Eigen::Vector3d& forward, con
 }
 
 CameraConfig mounted(double yaw_deg, double pitch_deg, double roll_deg) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   CameraConfig camera;
   camera.yaw_rad = yaw_deg * kRadPerDeg;
   camera.pitch_rad = pitch_deg * kRadPerDeg;

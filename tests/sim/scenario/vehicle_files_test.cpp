@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "dynamics/steady_flight.h"
+#include "sim/fields/quantities.h"
 #include "sim/scenario/scenario.h"
 #include "tests/dynamics/control/step_response.h"
 #include "tests/dynamics/multicopter/published_multicopters.h"
 
 namespace hedgehop::sim {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::vector<std::filesystem::path> vehicle_files() {
   std::vector<std::filesystem::path> files;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/simulation/simulation.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -18,7 +19,8 @@ Scenario short_flight(const std::string& name, std::string text, std::vector<std
   const std::string configs = HEDGEHOP_SOURCE_DIR "/configs";
   for (size_t at = 0; (at = text.find('~', at)) != std::string::npos; at += configs.size())
     text.replace(at, 1, configs);
-  const auto file = std::filesystem::path(testing::TempDir()) / (name + ".yaml");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / (name + ".yaml");
   std::ofstream(file) << text;
   overrides.insert(overrides.begin(), {"scene.texture_size=128", "drawing.renderer=tiles"});
   return load_scenario(file, overrides);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/config/input_error.h"
+#include "tests/sim/record/temporary_folder.h"
 #include "tests/sim/render/osmesa.h"
 
 namespace hedgehop::sim {
@@ -35,17 +36,6 @@ class ScribblingWatcher : public FlightWatcher {
   void on_progress(double, double, double) override { ++seconds; }
   int images = 0, seconds = 0;
 };
-
-TEST(Simulation, RefusesAValueOutOfBoundsThatNoFileBrought) {
-  Scenario scenario = short_city();
-  scenario.film.rate_hz = 0.0;
-  try {
-    Simulation(scenario).run();
-    FAIL() << "flies";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "'film.rate': must be >= 0.01 Hz, got 0");
-  }
-}
 
 TEST(Simulation, SameScenarioGivesTheSameFlightBitForBit) {
   const Flight first = Simulation(short_city()).run(), second = Simulation(short_city()).run();
@@ -76,7 +66,8 @@ TEST(Simulation, ImagesForAnObserverDoNotChangeTheFlight) {
 
 TEST(Simulation, ResolvedScenarioFliesTheSameFlight) {
   const Scenario scenario = short_city();
-  const auto file = std::filesystem::path(testing::TempDir()) / "resolved.yaml";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "resolved.yaml";
   std::ofstream(file) << to_yaml(scenario);
   EXPECT_EQ(Simulation(load_scenario(file)).run().result.trajectory_hash,
             Simulation(scenario).run().result.trajectory_hash);
@@ -198,6 +189,26 @@ TEST(SimulationImage, GreyIsTheMeanOfColor) {
     }
   }
   EXPECT_LE(largest, 1.5);  // both are rounded to whole levels, the textures too
+}
+
+TEST(SimulationImage, FlowToTheNextImageIsThatBetweenItsTwoPoses) {
+  const Scenario ideal = short_city({"rig.sensor.use=sensors/ideal.yaml"});
+  Simulation simulation(ideal);
+  const auto pose = [&] {
+    const TrueMotion motion = simulation.truth();
+    return ChosenPose{Eigen::Translation3d(motion.p_WB) * motion.q_WB, simulation.t_s()};
+  };
+  simulation.fly_to(1.0);
+  const ChosenPose before = pose();
+  const cv::Mat flow = simulation.flow_to_next_image("front");
+  EXPECT_NEAR(simulation.t_s(), 1.0 + 1.0 / 25.0, 1e-9) << "the camera has 25 Hz";
+  EXPECT_GT(cv::norm(flow, cv::NORM_INF), 1.0);
+  cv::Mat difference;
+  cv::absdiff(flow, Simulation(ideal).flow_between("front", before, pose()), difference);
+  constexpr double kMovedEdges = 2e-3;  // share; the quaternion rounds the pose
+  EXPECT_LT(cv::countNonZero(difference.reshape(1) > 1e-2), kMovedEdges * 2.0 * static_cast<double>(flow.total()));
+  simulation.fly_to(3.98);
+  EXPECT_THROW(simulation.flow_to_next_image("front"), InputError) << "the flight ends after 4 s";
 }
 
 }  // namespace

@@ -108,7 +108,6 @@ TEST(Takeover, OtherCamerasAndALateMomentAreRefused) {
 }
 
 TEST(Takeover, ErrorOfItsForeignModuleNamesTheTakeover) {
-  Scenario scenario = scenario_of(module_flights().front());
   for (const auto& [text, path] : {std::pair("{plugin: absent.so, module: mine}", "'takeover.avoidance.plugin'"),
                                    std::pair("{python: absent.py, class: Mine}", "'takeover.avoidance.python'")}) {
     EXPECT_THAT(

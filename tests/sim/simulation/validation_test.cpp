@@ -62,7 +62,7 @@ const std::vector<ScenarioError>& scenario_errors() {
       {"'checks.0.formula': ", [](Scenario& s) { s.checks = {FormulaCheck{.name = "f", .formula = "alwys 1 > 0"}}; }},
       {"'checks.0.reference': ",
        [](Scenario& s) { s.checks = {PathToleranceCheck{.reference = "/absent.csv", .at_most_m = 1.0}}; }},
-      {"'scene.imports.file': '/absent.obj'",
+      {"'scene.imports.0.file': '/absent.obj'",
        [](Scenario& s) { std::visit([](auto& scene) { scene.added.imports = {{.file = "/absent.obj"}}; }, s.scene); }},
   };
   return errors;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "sim/simulation/simulation.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -51,7 +52,8 @@ TEST(Imports, ThatCannotBeReadAreRefusedWithTheirPlace) {
 }
 
 TEST(Imports, AreReadOnceForTheValidationAndTheFlight) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_once.obj";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "read_once.obj";
   std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n";
   const std::vector<std::string> overrides = {
       "scene.imports=[{file: '" + file.string() + "', name: sheet, north: 50, altitude: 20}]", "scene.texture_size=64",

@@ -116,7 +116,9 @@ TEST(LatinHypercube, EveryStratumOfEveryCoordinateHoldsOnePoint) {
 
 TEST(RandomPoints, FillTheCubeEvenly) {
   const UnitPoints drawn = random_points(8192, 2, 3);
-  for (const auto& [box, count] : box_counts(drawn, {2, 2})) {
+  const auto counts = box_counts(drawn, {2, 2});
+  EXPECT_EQ(counts.size(), 16u);
+  for (const auto& [box, count] : counts) {
     EXPECT_NEAR(count, 512, 5 * 22);  // five standard deviations of a binomial count
   }
 }

@@ -17,10 +17,11 @@ TEST(SweepOnSlurm, EqualsTheLocalSweepByteForByteIfAFlightCrashesOnce) {
   const std::string worker = folder.worker(
       "case \"$*\" in *'seed 2 --set avoidance.speed=1.25 '*) [ -e died ] || { touch died; exit 3; } ;; esac\n"
       "fly \"$@\"");
-  folder.write("job.sh", std::string("set -e\n") + HEDGEHOP_PROGRAM +
-                             " sweep sweep.yaml --out remote --on slurm --tasks 3 -j 1 --program " + worker +
-                             "\nfor ((i = 0; i < 1200; i++)); do [ -z \"$(squeue -h)\" ] && break; sleep 0.1; done\n"
-                             "squeue -h -t all -o '%i %T %R'\n");
+  folder.write("job.sh",
+               std::string("set -e\n") + HEDGEHOP_PROGRAM +
+                   " sweep sweep.yaml --out remote --on slurm --tasks 3 -j 1 --program " + worker +
+                   "\nfor ((i = 0; i < 6000; i++)); do q=$(squeue -h) && [ -z \"$q\" ] && break; sleep 0.1; done\n"
+                   "squeue -h -t all -o '%i %T %R'\n");
   const CommandEnd end =
       folder.shell("bash " HEDGEHOP_SOURCE_DIR "/tests/sim/sweep/slurm_cluster.sh cluster bash job.sh");
   if (end.status == 77) GTEST_SKIP() << "no Slurm: " << end.out;

@@ -107,7 +107,7 @@ TEST_F(PointsOfASweep, HaveFaultsWithTheLineOfTheFile) {
   EXPECT_THAT(sweep("  - {path: avoidance.speed, values: [1, 80 cm]}\n").err, HasSubstr("s.yaml:5:"));
   folder.write("s.yaml", "scenario: none.yaml\nparameters: [{path: avoidance.speed, values: [1]}]\n");
   EXPECT_THAT(folder.hedgehop("sweep s.yaml --out out").err,
-              HasSubstr("s.yaml:1:11: there is no file 'none.yaml' (relative to the sweep's folder)"));
+              HasSubstr("s.yaml:1:11: there is no such file: 'none.yaml' (relative to the sweep's folder)"));
   folder.write("s.yaml", "scenario: tiny.yaml\nseeds: 5:1\nparameters: [{path: avoidance.speed, values: [1]}]\n");
   EXPECT_THAT(folder.hedgehop("sweep s.yaml --out out").err, HasSubstr("s.yaml:2:8: seeds '5:1'"));
   folder.write("s.yaml",

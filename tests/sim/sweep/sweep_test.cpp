@@ -91,6 +91,7 @@ TEST_F(Sweep, MergedShardsEqualTheWhole) {
     ASSERT_EQ(folder.hedgehop("sweep sweep.yaml --shard " + shard + " --out part" + shard.substr(0, 1)).status, 0);
   }
   EXPECT_EQ(folder.hedgehop("sweep sweep.yaml --missing --out part1").out, "8\n");
+  EXPECT_EQ(folder.hedgehop("sweep sweep.yaml --missing --out part1 --from part2").out, "4\n");
   EXPECT_EQ(folder.hedgehop("sweep sweep.yaml --merge --out merged --from part1 --from part3").status, 1);
   ASSERT_EQ(folder.hedgehop("sweep sweep.yaml --merge --out merged --from part1 --from part2 --from part3").status, 0);
   EXPECT_EQ(lasting_columns(folder.read("merged/sweep.csv")), lasting_columns(folder.read("whole/sweep.csv")));
@@ -187,7 +188,7 @@ TEST_F(Sweep, InterruptedOptimizerKeepsTheTableOfItsPoints) {
                "parameters: [{path: avoidance.speed, from: 0.2, to: 1}]\n");
   const std::string worker = folder.worker(
       "echo x >> flown.txt; if [ $(wc -l < flown.txt) = 3 ]; then kill -INT $PPID; exec sleep 1000; fi; fly \"$@\"");
-  const CommandEnd end = folder.hedgehop("sweep best.yaml --out out --program " + worker);
+  const CommandEnd end = folder.hedgehop("sweep best.yaml --out out -j 1 --program " + worker);
   EXPECT_EQ(end.status, 128 + SIGINT) << end.err;
   EXPECT_EQ(Table(folder.path() / "out/sweep.csv").rows(), 2u);
 }

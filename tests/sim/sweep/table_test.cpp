@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "tests/sim/record/temporary_folder.h"
+
 namespace hedgehop::sim {
 namespace {
 
@@ -30,7 +32,8 @@ TEST(FlightTable, StoresColumnsThatDifferOnlyInCase) {
   double number = 0.0;
   for (const char* name : {"AA", "aa", "Aa", "b"})
     table.add({.name = name, .values = std::vector{++number}, .whole = true});
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "case.sqlite";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "case.sqlite";
   write_sqlite(file, table);
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);

@@ -1,7 +1,6 @@
 #include "sim/verdict/assessment.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -9,6 +8,7 @@
 
 #include "sim/scenario/reference_path.h"
 #include "sim/scenario/validate.h"
+#include "tests/sim/record/temporary_folder.h"
 #include "tests/sim/verdict/straight_flight.h"
 
 namespace hedgehop::sim {
@@ -150,11 +150,10 @@ TEST(Checks, NoTruthUsedCountsTheEntriesOfTheResult) {
 /// The straight flight as a reference in a file, and flights that end before or after it.
 class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measure> {
  protected:
-  PathTolerance()
-      : file_(std::string(testing::TempDir()) + "/straight_reference_" + std::to_string(::getpid()) + ".csv") {
+  PathTolerance() {
     ReferencePath reference{.reason = "straight", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
     for (const TrajectoryRow& row : flown_.flight.trajectory) reference.points.push_back({row.t_s, row.p_WB_true});
-    std::ofstream(file_) << reference_text(reference);
+    std::ofstream(file()) << reference_text(reference);
   }
   /// @param rows  of the flight, one every 0.1 s and 0.2 m; beyond 201 it continues.
   CheckResult fly(size_t rows, Outcome outcome, double at_most_m) {
@@ -166,12 +165,14 @@ class PathTolerance : public ::testing::TestWithParam<PathToleranceCheck::Measur
     }
     trajectory.resize(rows);
     flown_.flight.result.outcome = outcome;
-    return flown_.evaluate(PathToleranceCheck{.reference = file_, .at_most_m = at_most_m, .measure = GetParam()});
+    return flown_.evaluate(PathToleranceCheck{.reference = file(), .at_most_m = at_most_m, .measure = GetParam()});
   }
 
  private:
+  std::string file() const { return folder_.path() / "straight_reference.csv"; }
+
+  const TemporaryFolder folder_;
   StraightFlight flown_;
-  std::string file_;
 };
 
 TEST_P(PathTolerance, HoldsForTheReferenceItself) { EXPECT_TRUE(fly(201, Outcome::timeout, 0.01).passed); }
@@ -203,7 +204,8 @@ INSTANTIATE_TEST_SUITE_P(Measures, PathTolerance,
 // A flight that stops early is on the path of the reference, but has not flown the rest.
 TEST(PathToleranceBand, FailsAFlightThatStopsAtTheHoverOfTheReference) {
   StraightFlight f;
-  const std::string file = std::string(testing::TempDir()) + "/hover_reference.csv";
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "hover_reference.csv";
   ReferencePath reference{.reason = "hover", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
   for (TrajectoryRow& row : f.flight.trajectory) {
     row.p_WB_true = {0.0, 0.0, -10.0};

@@ -95,6 +95,8 @@ TEST(FormulaCheck, TrackingErrorWithoutACommandedVelocityFailsEveryFormula) {
     EXPECT_EQ(result.cause, "no velocity was commanded") << formula;
   }
   EXPECT_TRUE(f.check("always (speed < 9 or tracking_error < 1)").passed);
+  EXPECT_EQ(f.check("always (status == nosuch) and always (tracking_error < 1 or speed < 90)").cause, "")
+      << "no velocity could make it hold";
 }
 
 TEST(FormulaCheck, FlightWithoutARowFails) {

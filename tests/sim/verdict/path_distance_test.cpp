@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sim/libm/random.h"
+#include "tests/sim/record/temporary_folder.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -102,7 +103,8 @@ TEST(PathDistance, BandComparesAnEarlyEndWithTheRestOfTheReference) {
 TEST(ReferencePath, OfPointsInOneMillisecondTheLastIsReadBack) {
   ReferencePath reference{.reason = "good", .version = "0", .seed = 1, .step_s = 0.1, .points = {}};
   reference.points = {{0.0, {0.0, 0.0, -1.0}}, {0.3, {1.0, 0.0, -1.0}}, {0.3004, {2.0, 0.0, -1.0}}};
-  const std::string file = testing::TempDir() + "/one_millisecond.csv";
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "one_millisecond.csv";
   std::ofstream(file) << reference_text(reference);
   const Path read = read_reference_path(file).points;
   ASSERT_EQ(read.size(), 2u);

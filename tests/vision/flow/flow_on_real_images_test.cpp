@@ -53,7 +53,7 @@ TEST_P(FlowOnRealImages, IsCloseToTheTrueMeanFlowOfEachPatch) {
   ImageInterpolationFlow flow(config, older.cols, older.rows);
   flow.update(older);
   const FlowField& field = flow.update(newer);
-  EXPECT_GT(field.valid_share(), 0.75);
+  ASSERT_GT(field.valid_share(), 0.75);
 
   std::vector<double> errors;
   double sum = 0.0;
@@ -73,6 +73,7 @@ TEST_P(FlowOnRealImages, IsCloseToTheTrueMeanFlowOfEachPatch) {
     errors.push_back((vector.flow_px - mean / known).norm());
     sum += errors.back();
   }
+  ASSERT_FALSE(errors.empty());
   std::nth_element(errors.begin(), errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2), errors.end());
   const double median_px = errors[errors.size() / 2], mean_px = sum / static_cast<double>(errors.size());
   RecordProperty("median_error_px", std::to_string(median_px));

@@ -39,7 +39,7 @@ TEST(FlowRange, EveryPatchGivesItsDepthOnASlantedWallForAnyMotion) {
   }
 }
 
-TEST(FlowRange, RangeIsNeverBelowThatOfTheFlow) {
+TEST(FlowRange, NoiseIsRarelyANearObstacle) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise_px(0.0, 0.05);
   constexpr double kFrameS = 0.02, kFloorMps = 0.2;

@@ -176,6 +176,7 @@ TEST(FindPlain, ObliqueWallsOfACorridorAreFreeUpToTheirFeet) {
     for (const double pitch_rad : {-0.15, 0.0, 0.1}) {
       const Mapped mapped = map_of(PlainView(walls, 1.5, pitch_rad, roll_rad), walls);
       EXPECT_GT(mapped.plain, 100) << roll_rad << " " << pitch_rad;
+      EXPECT_GT(mapped.free, 100) << roll_rad << " " << pitch_rad;
       EXPECT_LT(mapped.farthest_free_m, kVoxelM) << roll_rad << " " << pitch_rad;
     }
   }
@@ -190,6 +191,7 @@ TEST(FindPlain, AttitudeErrorDoesNotMoveTheWall) {
     wrong.X_WC = view.X_WC * Eigen::AngleAxisd(error_rad, Eigen::Vector3d::UnitX());
     const Mapped mapped = map_of(wrong, wall);
     EXPECT_GT(mapped.plain, 250) << error_rad;
+    EXPECT_GT(mapped.free, 100) << error_rad;
     EXPECT_LT(mapped.farthest_free_m, kVoxelM) << error_rad;
   }
 }
@@ -206,6 +208,7 @@ TEST(FindPlain, HangingPlainBoxIsNotFreedThrough) {
             {{Eigen::Vector3d(ahead_m, -0.7, -2.6), Eigen::Vector3d(ahead_m + 0.5, 0.7, bottom_m)},
              kWallGrey + contrast}};
         const Mapped mapped = map_of(PlainView(scene, 1.5), scene);
+        EXPECT_GT(mapped.free, 3) << ahead_m << " " << bottom_m << " " << contrast;
         EXPECT_LT(mapped.farthest_free_m, kBesideM) << ahead_m << " " << bottom_m << " " << contrast;
       }
     }
@@ -223,6 +226,7 @@ TEST(FindPlain, LowPlainBlockDoesNotStand) {
   const Mapped mapped = map_of(PlainView(scene, 1.5), scene);
   EXPECT_GT(mapped.plain, 0);
   EXPECT_EQ(mapped.standing, 0);
+  EXPECT_GT(mapped.free, 5);
   EXPECT_LT(mapped.farthest_free_m, 0.0);
 }
 

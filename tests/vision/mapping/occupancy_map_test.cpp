@@ -32,7 +32,7 @@ struct Counts {
   int in_solid = 0, free_in_solid = 0, free = 0, occupied = 0, occupied_near_surface = 0;
 };
 
-/// Compares the map with the boxes. A voxel is solid if it is completely inside a box.
+/// Compares the map with the boxes. A voxel is solid if its center is inside a box.
 Counts compare(const OccupancyMap& map, const MappedWorld& world) {
   Counts counts;
   for (int z = map.first().z(); z < map.first().z() + map.size().z(); ++z) {

@@ -17,25 +17,17 @@ import junitparser
 
 import junit_rules
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from tiny_scenario import tiny_scenario  # noqa: E402
+
 PROGRAM, SOURCE = sys.argv[1:3]
 NODE, MODULES = sys.argv[3:5] if len(sys.argv) > 3 else (None, None)
 HERE = pathlib.Path(__file__).parent
 
-TINY = f"""use: {SOURCE}/configs/garratt2009_room_0_light.yaml
-name: "NAME"
-duration: 0.1
-scene: {{texture_size: 64}}
-velocimeter: {{enabled: false}}
-drawing: {{renderer: tiles}}
-rig: {{cameras: [{{role: front, width: 16, height: 16, fov: 90, rate: 25, channel: grey}}]}}
-avoidance: {{module: go_to_goal}}
-goal: {{north: 5, east: 0, altitude: 1, radius: 1}}
-"""
-TWICE = """checks:
+TWICE = """
   - {check: metric, name: jerk_rms, at_least: 0}
   - {check: metric, name: jerk_rms, at_most: 0}
-  - {check: reached_goal}
-"""
+  - {check: reached_goal}"""
 
 
 class JUnit(unittest.TestCase):
@@ -44,8 +36,8 @@ class JUnit(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         folder = cls.folder = pathlib.Path(cls.scratch.name)
         (folder / "flüge").mkdir()
-        for file, name, checks in (("a.yaml", "Straße ä", "checks: [{check: no_collision}]\n"), ("b.yml", "飞行 <&> \\U0001F681", TWICE)):
-            (folder / "flüge" / file).write_text(TINY.replace("NAME", name) + checks)
+        for file, name, checks in (("a.yaml", "Straße ä", "[{check: no_collision}]"), ("b.yml", "飞行 <&> \\U0001F681", TWICE)):
+            (folder / "flüge" / file).write_text(tiny_scenario(SOURCE, name, checks))
         cls.end = cls.hedgehop("batch", "flüge", "--seeds", "1:2", "--out", "out ü", "--junit", "ci/prüfung.xml", "--keep",
                                "failed=film,csv,report")
         cls.text = (folder / "ci/prüfung.xml").read_bytes()

@@ -103,7 +103,7 @@ int main() {
     print_all<Heartbeat, Attitude, LocalPositionNed, RcChannelsOverride, CommandLong, CommandAck,
               SetPositionTargetLocalNed, EkfStatusReport, StatusText, ObstacleDistance, DistanceSensor, OpticalFlow,
               OpticalFlowRad, VisionPositionEstimate, Odometry, HilSensor, HilGps, HilStateQuaternion,
-              HilActuatorControls, HilOpticalFlow>(writer, random);
+              HilActuatorControls>(writer, random);
   }
   return 0;
 }

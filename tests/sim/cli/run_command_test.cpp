@@ -1,0 +1,26 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/sim/batch/campaign_folder.h"
+
+namespace hedgehop::sim::cli {
+namespace {
+
+TEST(RunCommand, RemovesTheFilmOfAnEarlierFlightIfThereAreNoImages) {
+  const CampaignFolder folder;
+  folder.write("blind.yaml",
+               "name: blind\nduration: 0.2\nscene: {type: corridor, width: 10, sections: [{length: 40}]}\n"
+               "velocimeter: {enabled: false}\nvehicle: {use: " HEDGEHOP_SOURCE_DIR
+               "/configs/vehicles/hummingbird.yaml}\nstart: {north: 5, east: 0, altitude: 1.5, heading: 0}\n"
+               "goal: {north: 35, east: 0, altitude: 1.5, radius: 1}\navoidance: {module: go_to_goal, speed: 1}\n"
+               "checks: [{check: no_collision}]\n");
+  std::filesystem::create_directories(folder.path() / "out");
+  folder.write("out/video.webm", "old");
+  const CommandEnd end = folder.hedgehop("run blind.yaml --out out");
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/video.webm"));
+}
+
+}  // namespace
+}  // namespace hedgehop::sim::cli
