@@ -1,10 +1,11 @@
 #include "scenes/map/tags.h"
-#include "sim/fields/shortened.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+
+#include "sim/fields/shortened.h"
 
 namespace hedgehop::scenes::map {
 namespace {

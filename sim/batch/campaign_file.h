@@ -188,7 +188,7 @@ BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::ve
 /// InputError. @param file  of the scenario, named as in messages.
 Scenario load_order(const std::filesystem::path& file, Order& order);
 
-/// Marks an order that cannot be flown. @param faults  one line each, at least one.
+/// Refuses an order because of the faults of its file. @param faults  one line each; not empty.
 void refuse(Order& order, const std::vector<std::string>& faults);
 
 /// Adds an order and its faults to a batch. A flight listed twice is flown once, and an equal fault is listed once.

@@ -65,8 +65,7 @@ inline constexpr std::string_view kNoChecks = "no checks";
 /// "reached", "collided", "timeout", "fault" of a flight that was flown; "failed" or "missing" of any other.
 std::string outcome_words(const FlightRecord& record);
 
-/// Returns the outcome as pages and the terminal show it: a timeout without a goal, the normal end of such a flight, is
-/// "completed".
+/// Returns the outcome for pages and the terminal: "completed" for a timeout without a goal, which is a normal end.
 std::string shown_outcome(Outcome outcome, bool has_goal);
 
 /// The identity of the build that flew it, as its result names it; "" when it has none.

@@ -21,7 +21,7 @@
 #include "sim/pages/reproduction_page.h"
 
 #include "sim/reproduce/results_page.h"
-#include "sim/simulation/simulation.h"
+#include "sim/simulation/libraries.h"
 
 namespace hedgehop::sim::cli {
 namespace {

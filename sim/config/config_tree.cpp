@@ -1,9 +1,10 @@
 #include "sim/config/config_tree.h"
-#include "sim/fields/shortened.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
+
+#include "sim/fields/shortened.h"
 
 namespace hedgehop::sim {
 

@@ -17,6 +17,7 @@
 #include "sim/dataset/drawn_world.h"
 #include "sim/dataset/pose_file.h"
 #include "sim/flight/build.h"
+#include "sim/flight/words.h"
 #include "sim/libm/random.h"
 #include "sim/record/image_file.h"
 #include "sim/record/labels_file.h"
@@ -109,8 +110,8 @@ void check_poses(const DatasetRequest& request) {
   const size_t worlds = world_count(request);
   const size_t poses = parse_poses(read_file_whole(request.poses), file, {.of_camera = request.poses_of_camera}).size();
   if (request.images <= worlds * poses) return;
-  throw InputError(fmt::format("--images {}: {} has {} pose{}; valid: up to {} image{}{}", request.images, file, poses,
-                               poses == 1 ? "" : "s", worlds * poses, worlds * poses == 1 ? "" : "s",
+  throw InputError(fmt::format("--images {}: {} has {}; valid: up to {}{}", request.images, file,
+                               counted(poses, "pose"), counted(worlds * poses, "image"),
                                worlds == 1 ? "" : fmt::format(" in {} worlds", worlds)));
 }
 

@@ -1,13 +1,13 @@
 #include "sim/evidence/anytime_valid.h"
 
 #include <cmath>
-#include <limits>
+
+#include "sim/fields/quantities.h"
 
 namespace hedgehop::sim {
 namespace {
 
 constexpr int kHalvings = 200;  // more than a double resolves
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns count * ln(rate); 0 if the count is 0.
 double log_power(int64_t count, double log_rate) { return count == 0 ? 0.0 : static_cast<double>(count) * log_rate; }

@@ -106,8 +106,8 @@ void require_planned_number(const BatchOrders& batch, const std::string& rule);
 /// The same for the rule of a plan, if it has one.
 void require_planned_number(const BatchOrders& batch, const Registration& plan);
 
-/// Returns how a batch is flown; refused orders do not count. @param limit_s  maximum wall time of a flight; 0 for
-/// no limit.
+/// Returns the conduct of a batch without its refused orders. @param limit_s  maximum wall time of a flight; 0: no
+/// limit.
 Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& plan,
                    const std::optional<StoppingRule>& rule, double limit_s);
 

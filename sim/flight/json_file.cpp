@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "sim/config/input_error.h"
 #include "sim/config/whole_file.h"
@@ -43,10 +42,6 @@ std::string json_fault(const std::filesystem::path& file, const std::exception& 
 }
 
 Json read_json(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) && !error) {
-    throw InputError(fmt::format("{}: there is no such file", file.string()));
-  }
   const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
     if (depth > kMaxDepth) throw InputError(fmt::format("{}: is nested deeper than {}", file.string(), kMaxDepth));
     return true;

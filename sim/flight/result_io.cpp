@@ -4,20 +4,18 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sim/config/input_error.h"
 #include "sim/config/utf8.h"
+#include "sim/fields/quantities.h"
 #include "sim/flight/json_reader.h"
 
 namespace hedgehop::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Keys of the result and of its objects.
 const RenamedKey kRenamedKeys[] = {

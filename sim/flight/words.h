@@ -19,7 +19,7 @@ std::string decimals(double value, int count);
 /// Returns a number with as many significant figures, at least 4, as distinguish it from a number printed next to it.
 std::string distinct_figures(double value, double other);
 
-/// The same with decimals, at least 3, as decimals().
+/// Returns the number as decimals(), with 3 or more of them.
 std::string distinct_decimals(double value, double other);
 
 /// Returns a number with its unit: "0.62 m", "12"; "unknown" unless it is finite.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 #include <variant>
 
+#include "sim/fields/quantities.h"
 #include "sim/scenario/motor_frames.h"
 #include "sim/scenario/validate.h"
 
@@ -52,7 +52,6 @@ class LinkValidator {
       add("link.helicopter.trim", fmt::format("{} pulses; the swashplate has {} servos", c.trim_us.size(), servos));
     }
     require_less("link.helicopter.collective_max", c.collective_max_us, "collective_min", c.collective_min_us, "us");
-    constexpr double kDegPerRad = 180.0 / std::numbers::pi;
     require_less("link.helicopter.collective_high", kDegPerRad * c.collective_high_rad, "collective_low",
                  kDegPerRad * c.collective_low_rad, "deg");
     if (!(c.tail.min_us < c.tail.trim_us && c.tail.trim_us < c.tail.max_us)) {

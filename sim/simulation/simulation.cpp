@@ -3,21 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Core>
 #include <chrono>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "scenes/mesh/model.h"
 #include "sim/collision/proximity.h"
-#include "sim/flight/build.h"
 #include "sim/flight/words.h"
-#include "sim/libm/libm.h"
 #include "sim/loop/episode.h"
 #include "sim/scenario/validate.h"
+#include "sim/simulation/libraries.h"
 #include "sim/simulation/map_judge.h"
 #include "sim/verdict/assessment.h"
 #include "sim/verdict/floor_visited.h"
@@ -38,27 +34,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-Libraries libraries(const std::string& renderer) {
-  std::vector<std::string> others = {
-      fmt::format("Eigen {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION), bullet_version()};
-  if (const std::string importer = scenes::mesh::importer_version(); !importer.empty()) others.push_back(importer);
-  others.emplace_back(build_compiler());
-  return {.images = "OpenCV " + cv::getVersionString(),
-          .functions = libm_version(),
-          .others = fmt::format("{}", fmt::join(others, ", ")),
-          .renderer = renderer};
-}
-
 }  // namespace
-
-/// Limits OpenCV to one thread, because flights are the unit of parallelism. It runs once, because two flights must not
-/// stop OpenCV's threads at the same time.
-void keep_opencv_to_one_thread() {
-  [[maybe_unused]] static const bool done = [] {
-    cv::setNumThreads(1);
-    return true;
-  }();
-}
 
 class Simulation::Impl {
  public:
@@ -123,7 +99,7 @@ class Simulation::Impl {
     Flight flight = episode().flight();
     flight.result.wall_s = flying_s_;
     flight.result.realtime_factor = flight.result.flight_time_s / flying_s_;
-    flight.result.libraries = libraries(environment_->renderer.info());
+    flight.result.libraries = used_libraries(environment_->renderer.info());
     judge_->conclude(flight);
     assess(scenario_, *flight.scene, environment_->hull, flight);
     return flight;
@@ -297,11 +273,6 @@ ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles
     needs.cameras.push_back({role, camera->channel});
   }
   return [needs] { return std::make_unique<Hovering>(needs); };
-}
-
-std::string package_versions() {
-  const Libraries used = libraries({});
-  return fmt::format("{}, {}", library_words(used), used.others);
 }
 
 }  // namespace hedgehop::sim

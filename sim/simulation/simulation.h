@@ -129,8 +129,4 @@ class Simulation {
 /// Throws InputError for a role that the rig lacks.
 ModuleMaker hovering(const RigConfig& rig, const std::vector<std::string>& roles);
 
-/// Returns the packages that flights depend on, except the renderer, and the compiler: "OpenCV 4.6.0, SLEEF 3.5.1,
-/// Eigen 3.4.0, Bullet 3.24, assimp 5.2.5, GNU 12.2.0".
-std::string package_versions();
-
 }  // namespace hedgehop::sim

@@ -65,7 +65,7 @@ class ShellScripts(unittest.TestCase):
         self.assertEqual((text, calls), ("packages: all packages are installed (this release lacks: libosmesa6-dev)\n", []))
 
     def test_optional_packages_that_cannot_be_looked_up_are_no_error(self):
-        complete = "packages: all required packages are installed; the optional ones cannot be looked up: libosmesa6-dev\n"
+        complete = "packages: all required packages are installed; the optional ones cannot be installed: libosmesa6-dev\n"
         self.stand_in("apt-cache", APT_CACHE)
         for fault, sudo, apt in (("no root", "exit 1\n", "exit 100\n"), ("no network", SUDO, "exit 100\n"), ("no lists after an update", SUDO, RECORD)):
             self.stand_in("sudo", sudo)

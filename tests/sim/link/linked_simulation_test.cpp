@@ -177,7 +177,7 @@ TEST(LinkedSimulation, ClockBeginsAtTheStartAboveTheStand) {
   EXPECT_NEAR(flight.trajectory.front().p_WB_true.z(), -5.9, 0.01);
 }
 
-/// The sensors keep their state on the stand: a state that is not finite would make the estimate so.
+/// A sensor that measured a state that is not finite would corrupt the estimate.
 TEST(LinkedSimulation, StateThatIsNotFiniteBeforeTheStartIsAFaultThatNoSensorMeasures) {
   TestAutopilot autopilot;
   autopilot.descent_at = 200;

@@ -30,7 +30,7 @@ constexpr double kParkBaselineM = 1.6;
 constexpr double kParkSpeedMps = 4.8;
 constexpr double kVelocityErrorMps = 0.02;  // 1-sigma, per axis, constant between the images of a pair
 constexpr double kOutlierSigmas = 4.0;
-constexpr double kMinMatchedShare = 0.6;  // docs/local-map.md: at least 0.67
+constexpr double kMinMatchedShare = 0.6;  // docs/local-map.md: minimum 0.67
 
 /// Errors of matched pixels at some distance from the focus of expansion.
 struct SigmaRing {

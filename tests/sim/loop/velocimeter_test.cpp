@@ -12,8 +12,8 @@ namespace hedgehop::sim {
 namespace {
 
 TEST(Velocimeter, IsRightFromTheStartWhileTheFilterStillLearnsItsAttitude) {
-  // Half a degree of tilt unknown at the start is 0.09 m/s after a second; the optic flow must bound it. In 8 s the
-  // error reaches 0.04 to 0.07 m/s, and 0.09 to 0.22 m/s without the velocimeter.
+  // An attitude error of half a degree at the start causes 0.09 m/s after 1 s, unless optic flow bounds it. Maximum
+  // error in 8 s: 0.04 to 0.07 m/s, without the velocimeter 0.09 to 0.22 m/s.
   constexpr double kMaxErrorMps = 0.08;
   for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
     const std::vector<std::string> overrides = {"duration=8", "film.enabled=false", "checks=[]",

@@ -30,7 +30,7 @@ const Words kEndless = {"hang", "allocate", "stop"};
 const Words kHarmless = {"change_folder", "fork", "print"};
 
 /// Returns every action in every place if requested (scripts/soak), otherwise a part: some actions in each place and,
-/// if there are at least four places, each action.
+/// with four or more places, each action.
 std::vector<Attack> attacks(const Words& hows, const std::vector<Words>& places) {
   const bool all = std::getenv("HEDGEHOP_ATTACKS") != nullptr;
   std::vector<Attack> list;

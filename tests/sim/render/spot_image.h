@@ -21,7 +21,7 @@ inline cv::Mat spot_image(int size_px) {
   return image;
 }
 
-/// Returns the centroid of the levels of an image, px.
+/// Returns the center of brightness of an image, (u, v), px.
 inline Eigen::Vector2d centroid(const cv::Mat& grey) {
   const cv::Moments moments = cv::moments(grey);
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};

@@ -54,7 +54,7 @@ function measured(value, unit, figures = 4) {
   if (value && i >= 0) for (; Math.abs(value) < 0.01 && i < units.length - 1; ++i) value *= 1000;
   return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unitWords(unit)) : '');
 }
-/** Returns the outcome as pages show it: a timeout without a goal, the normal end of such a flight, is "completed". */
+/** Returns the outcome for pages: "completed" for a timeout without a goal, which is a normal end. */
 function shownOutcome(outcome, goal_distance_m) {
   return outcome === 'timeout' && (goal_distance_m ?? null) === null ? 'completed' : outcome;
 }
