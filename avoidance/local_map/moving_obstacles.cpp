@@ -50,7 +50,9 @@ constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below these limits an
 constexpr double kShrinks = 0.1;  // share by which the radius approaches a smaller observed one per image
 constexpr double kHiddenM = 5.0;  // 1-sigma error along the line of sight if the near surface is hidden
 constexpr double kHidesM = 1.0;   // margin beyond the minimum depth within which part of the surface may be hidden
-constexpr double kLostM = 1.5;    // maximum 1-sigma position error; above it a track would adopt any cluster
+// The mean stays below 5 among 132 moving boxes, and exceeds 20 along a fence of equal posts.
+constexpr double kMeanS = 10.0, kMaxMean = 6.0;
+constexpr double kLostM = 1.5;  // maximum 1-sigma position error; above it a track would adopt any cluster
 
 }  // namespace
 
@@ -220,7 +222,8 @@ void MovingObstacleTracker::correct(Track& track, const Cluster& cluster, const 
 }
 
 void MovingObstacleTracker::update(double t_s, const ViewSector& view, std::span<const SurfacePoint> points) {
-  predict(t_s - t_s_);
+  const double dt_s = t_s - t_s_;
+  predict(dt_s);
   t_s_ = t_s;
   std::vector<Cluster> clusters = clusters_of(view, points);
   for (Track& track : tracks_) {
@@ -259,10 +262,13 @@ void MovingObstacleTracker::update(double t_s, const ViewSector& view, std::span
     track.surface.see(t_s, cluster.points_W);
     tracks_.push_back(track);
   }
+  const auto moving = static_cast<double>(std::ranges::count_if(tracks_, &Track::is_moving));
+  mean_moving_ += std::min(1.0, dt_s / kMeanS) * (moving - mean_moving_);
 }
 
 std::vector<MovingObstacle> MovingObstacleTracker::moving_obstacles() const {
   std::vector<MovingObstacle> moving_obstacles;
+  if (mean_moving_ > kMaxMean) return moving_obstacles;
   for (const Track& track : tracks_) {
     if (!track.is_moving) continue;
     const Eigen::Vector4d variances = track.covariance.diagonal();

@@ -71,7 +71,8 @@ class MovingObstacleTracker {
   /// Adds the points of an image. @param t_s  increases from call to call.
   void update(double t_s, const ViewSector& view, std::span<const SurfacePoint> points);
 
-  /// Moving obstacles at the time of the last image.
+  /// Moving obstacles at the time of the last image. Empty while more than six are tracked on average: repeated
+  /// patterns, such as a row of equal posts, then yield false surfaces that appear in free space.
   std::vector<MovingObstacle> moving_obstacles() const;
 
  private:
@@ -106,6 +107,7 @@ class MovingObstacleTracker {
 
   Config config_;
   std::vector<Track> tracks_;
+  double mean_moving_ = 0.0;  ///< number of moving tracks, averaged over time
   double t_s_ = 0.0;
 };
 

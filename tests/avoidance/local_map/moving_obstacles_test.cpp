@@ -138,6 +138,27 @@ TEST(MovingObstacleTracker, ReportsNoMovingObstacleInAStaticWorld) {
   }
 }
 
+// Obstacles cross side by side. The mean of their number approaches it with a time constant of 10 s.
+TEST(MovingObstacleTracker, BelievesNoneWhileItTracksMoreThanSixOnAverage) {
+  const auto found_after = [](int obstacles, double from_s, double to_s, MovingObstacleTracker& tracker) {
+    const Eigen::Vector2d v_W(0.0, 0.5);
+    for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
+      std::vector<SurfacePoint> seen;
+      for (int i = 0; i < obstacles; ++i) {
+        const Eigen::Vector2d p_W = Eigen::Vector2d(5.0 + 3.0 * i, -10.0) + (t_s - from_s) * v_W;
+        for (const SurfacePoint& point : face_of(p_W, 0.8, p_W - 0.1 * v_W)) seen.push_back(point);
+      }
+      tracker.update(t_s, kAllAhead, seen);
+    }
+    return tracker.moving_obstacles().size();
+  };
+  MovingObstacleTracker few({}), many({});
+  EXPECT_EQ(found_after(5, 0.0, 40.0, few), 5u);
+  EXPECT_EQ(found_after(8, 0.0, 10.0, many), 8u);   // 8 (1 - exp(-1)) = 5.1
+  EXPECT_EQ(found_after(8, 10.0, 20.0, many), 0u);  // 6.9
+  EXPECT_EQ(found_after(2, 20.0, 30.0, many), 2u);  // below 6.9 exp(-1) + 2
+}
+
 // Matching finds different parts of a corridor wall in each image, some of them in space that was observed as free.
 TEST(MovingObstacleTracker, WallAlongTheLineOfSightIsNoMovingObstacle) {
   std::mt19937_64 generator(1);

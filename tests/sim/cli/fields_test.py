@@ -29,7 +29,7 @@ class Fields(unittest.TestCase):
         for name, x, y in (("m1_test_0", 2, 20), ("m1_test_1", 5, 25), ("m2_test_0", -3, 30)):
             (self.folder / "tests" / f"{name}.yaml").write_text(BOXES.format(x=x, y=y))
         # The script writes into its own source tree.
-        for part in ("scripts/fields", "scripts/generated_tables.py", "configs", "docs/validation.md"):
+        for part in ("scripts/fields", "scripts/free_way.py", "scripts/generated_tables.py", "configs", "docs/validation.md"):
             copy, whole = self.folder / "source" / part, SOURCE / part
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copytree(whole, copy) if whole.is_dir() else shutil.copy(whole, copy)
@@ -92,10 +92,37 @@ class Fields(unittest.TestCase):
         self.assertEqual([field["name"] for field in chosen if field["source"] == "flightmare hard"], ["hard_1", "hard_4"])
         self.assertEqual({field["of"] for field in chosen if field["source"] == "barn"}, {27})
 
+    def test_a_way_exists_if_every_gap_is_wider_than_the_vehicle(self):
+        sys.path.insert(0, str(SOURCE / "scripts"))
+        from free_way import has_way
+
+        def solid(shape, north, east, down, size, turn=(1, 0, 0, 0)):
+            return dict(zip(("shape", "north_m", "east_m", "down_m", "qw", "qx", "qy", "qz", "size_x_m", "size_y_m", "size_z_m"),
+                            (shape, north, east, down, *turn, *size)))
+
+        def wall(gap, turn=(1, 0, 0, 0), size=(1, 100, 10)):  # across the way at 10 m north, with a gap in the middle
+            return [solid("box", 10, side * (50 + gap / 2), -5, size, turn) for side in (-1, 1)]
+
+        def way(rows, altitude=5):
+            return has_way(rows, [(0, 0), (20, 0), (20, 10)], altitude, 3, 1.0)
+
+        half = 0.5**0.5
+        self.assertTrue(way([]))
+        self.assertTrue(way(wall(2.8)))
+        self.assertFalse(way(wall(1.9)))
+        self.assertFalse(way(wall(1.9, (half, half, 0, 0), (1, 10, 100)), 4))  # the same walls, turned about north
+        self.assertFalse(way(wall(0), 10.9))  # 0.9 m above the walls
+        self.assertTrue(way(wall(0), 11.4))
+        # A row of upright cylinders of 1.2 m, then of lying ones.
+        self.assertTrue(way([solid("cylinder", 10, 4 * k, -4, (1.2, 1.2, 8)) for k in range(-20, 21)]))
+        self.assertFalse(way([solid("cylinder", 10, 3.1 * k, -4, (1.2, 1.2, 8)) for k in range(-20, 21)]))
+        self.assertFalse(way([solid("cylinder", 10, 4 * k, -4, (1.2, 1.2, 8), (half, half, 0, 0)) for k in range(-20, 21)]))
+        self.assertFalse(way([solid("box", 0, 0, -5, (1, 1, 10))]))  # at the start
+
     def test_table_counts_success_by_density_source_and_speed(self):
         out = self.folder / "out"
         (out / "flights").mkdir(parents=True)
-        (out / "fields.csv").write_text("field,source,density\nthin,barn,0.5\ndense,barn,4\n")
+        (out / "fields.csv").write_text("field,source,density,way\nthin,barn,0.5,True\ndense,barn,4,False\n")
         cells, rows = [], []
         for field, module, ends in (("thin", "local_map 3", ["reached"] * 9 + ["timeout"]), ("dense", "local_map 3", ["reached", "collided"]),
                                     ("dense", "section_grid own", ["timeout"])):
@@ -111,11 +138,12 @@ class Fields(unittest.TestCase):
         self.assertIn("| 3 to 10 | local_map | 50 % (9 to 91) of 2; 1 collided | - |", text)
         self.assertIn("| all | local_map | 83 % (55 to 95) of 12; 1 collided | - |", text)
         self.assertIn("| barn | section_grid | - | 0 % (0 to 79) of 1 |", text)
+        self.assertIn("| static, with a way of 0.94 m | local_map | 90 % (60 to 98) of 10 | - |", text)
         self.assertIn("13 flights.", text)
         page, before = self.folder / "source/docs/validation.md", (SOURCE / "docs/validation.md").read_text()
         for _ in range(2):  # also over its own text
-            self.fields("table", "out", "--write")
-            parts = [re.fullmatch(r"(.*<!-- fields: success -->\n)(.*?)(<!-- end -->.*)", whole, re.S) for whole in (before, page.read_text())]
+            self.fields("table", "out", "--write", "sample")
+            parts = [re.fullmatch(r"(.*<!-- fields: sample -->\n)(.*?)(<!-- end -->.*)", whole, re.S) for whole in (before, page.read_text())]
             self.assertEqual(parts[0].group(1, 3), parts[1].group(1, 3))
             self.assertEqual(parts[1][2], text)
 
