@@ -50,8 +50,9 @@ constexpr double kStillMps = 0.12, kStillSigmas = 1.0;  // below these limits an
 constexpr double kShrinks = 0.1;  // share by which the radius approaches a smaller observed one per image
 constexpr double kHiddenM = 5.0;  // 1-sigma error along the line of sight if the near surface is hidden
 constexpr double kHidesM = 1.0;   // margin beyond the minimum depth within which part of the surface may be hidden
-// The mean stays below 5 among 132 moving boxes, and exceeds 20 along a fence of equal posts.
-constexpr double kMeanS = 10.0, kMaxMean = 6.0;
+// In tuning flights, the mean stays below 0.3 among 132 moving boxes, and exceeds 4 along rows of equal posts.
+constexpr double kMeanS = 10.0, kMaxSudden = 1.0;
+constexpr double kSuddenShare = 0.5;
 constexpr double kLostM = 1.5;  // maximum 1-sigma position error; above it a track would adopt any cluster
 
 }  // namespace
@@ -259,16 +260,19 @@ void MovingObstacleTracker::update(double t_s, const ViewSector& view, std::span
     track.state.head<2>() = cluster.middle_W(cluster.radius_m);
     track.covariance.topLeftCorner<2, 2>() = covariance_m2(cluster.near_W, view.camera_W);
     track.covariance.bottomRightCorner<2, 2>() = kFirstSpeedMps * kFirstSpeedMps * Eigen::Matrix2d::Identity();
+    track.sudden = !cluster.cut_left && !cluster.cut_right &&
+                   cluster.appeared >= kSuddenShare * static_cast<double>(cluster.points_W.size());
     track.surface.see(t_s, cluster.points_W);
     tracks_.push_back(track);
   }
-  const auto moving = static_cast<double>(std::ranges::count_if(tracks_, &Track::is_moving));
-  mean_moving_ += std::min(1.0, dt_s / kMeanS) * (moving - mean_moving_);
+  const auto sudden =
+      std::ranges::count_if(tracks_, [](const Track& track) { return track.is_moving && track.sudden; });
+  mean_sudden_ += std::min(1.0, dt_s / kMeanS) * (static_cast<double>(sudden) - mean_sudden_);
 }
 
 std::vector<MovingObstacle> MovingObstacleTracker::moving_obstacles() const {
   std::vector<MovingObstacle> moving_obstacles;
-  if (mean_moving_ > kMaxMean) return moving_obstacles;
+  if (mean_sudden_ > kMaxSudden) return moving_obstacles;
   for (const Track& track : tracks_) {
     if (!track.is_moving) continue;
     const Eigen::Vector4d variances = track.covariance.diagonal();

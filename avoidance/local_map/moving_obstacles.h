@@ -71,8 +71,9 @@ class MovingObstacleTracker {
   /// Adds the points of an image. @param t_s  increases from call to call.
   void update(double t_s, const ViewSector& view, std::span<const SurfacePoint> points);
 
-  /// Moving obstacles at the time of the last image. Empty while more than six are tracked on average: repeated
-  /// patterns, such as a row of equal posts, then yield false surfaces that appear in free space.
+  /// Moving obstacles at the time of the last image. Empty while several appeared suddenly: a real obstacle comes into
+  /// view from its edge, from afar or from behind others, whereas wrong matches of repeated patterns, such as a row of
+  /// equal posts, appear in free space as a whole.
   std::vector<MovingObstacle> moving_obstacles() const;
 
  private:
@@ -94,6 +95,7 @@ class MovingObstacleTracker {
     double radius_m;
     int evidence = 1, unseen = 0;  ///< number of images
     bool is_moving = false;
+    bool sudden = false;  ///< whether its first image showed it whole, and mostly in space that was free
     VisibleSurface surface = {};
   };
 
@@ -107,7 +109,7 @@ class MovingObstacleTracker {
 
   Config config_;
   std::vector<Track> tracks_;
-  double mean_moving_ = 0.0;  ///< number of moving tracks, averaged over time
+  double mean_sudden_ = 0.0;  ///< number of moving tracks that appeared suddenly, averaged over time
   double t_s_ = 0.0;
 };
 

@@ -138,25 +138,37 @@ TEST(MovingObstacleTracker, ReportsNoMovingObstacleInAStaticWorld) {
   }
 }
 
-// Obstacles cross side by side. The mean of their number approaches it with a time constant of 10 s.
-TEST(MovingObstacleTracker, BelievesNoneWhileItTracksMoreThanSixOnAverage) {
-  const auto found_after = [](int obstacles, double from_s, double to_s, MovingObstacleTracker& tracker) {
-    const Eigen::Vector2d v_W(0.0, 0.5);
-    for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
-      std::vector<SurfacePoint> seen;
-      for (int i = 0; i < obstacles; ++i) {
-        const Eigen::Vector2d p_W = Eigen::Vector2d(5.0 + 3.0 * i, -10.0) + (t_s - from_s) * v_W;
-        for (const SurfacePoint& point : face_of(p_W, 0.8, p_W - 0.1 * v_W)) seen.push_back(point);
+/// Obstacles cross at 0.5 m/s, each in its own lane. Sudden ones cross at 2 m/s; every two seconds they vanish and
+/// appear again as a whole. Returns the number that the tracker reports at the end.
+size_t reported_after(MovingObstacleTracker& tracker, double from_s, double to_s, int obstacles, int sudden) {
+  constexpr double kRadiusM = 0.8, kVoxelM = 0.03;
+  for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
+    std::vector<SurfacePoint> seen;
+    for (int i = 0; i < obstacles + sudden; ++i) {
+      const double for_s = std::fmod(t_s, i < obstacles ? 10.0 : 2.0);
+      const Eigen::Vector2d v_W(0.0, i < obstacles ? 0.5 : 2.0);
+      const Eigen::Vector2d p_W = Eigen::Vector2d(5.0 + 3.0 * i, -2.0) + for_s * v_W;
+      for (SurfacePoint point : face_of(p_W, kRadiusM, p_W)) {
+        const bool appears = (point.p_W - (p_W - 0.1 * v_W)).norm() > kRadiusM + kVoxelM;
+        seen.push_back({point.p_W, appears || (i >= obstacles && for_s < 0.05)});
       }
-      tracker.update(t_s, kAllAhead, seen);
     }
-    return tracker.moving_obstacles().size();
-  };
-  MovingObstacleTracker few({}), many({});
-  EXPECT_EQ(found_after(5, 0.0, 40.0, few), 5u);
-  EXPECT_EQ(found_after(8, 0.0, 10.0, many), 8u);   // 8 (1 - exp(-1)) = 5.1
-  EXPECT_EQ(found_after(8, 10.0, 20.0, many), 0u);  // 6.9
-  EXPECT_EQ(found_after(2, 20.0, 30.0, many), 2u);  // below 6.9 exp(-1) + 2
+    tracker.update(t_s, kAllAhead, seen);
+  }
+  return tracker.moving_obstacles().size();
+}
+
+// The mean of the number of sudden obstacles approaches it with a time constant of 10 s.
+TEST(MovingObstacleTracker, ReportsNoneWhileSeveralAppearSuddenly) {
+  MovingObstacleTracker tracker({});
+  EXPECT_EQ(reported_after(tracker, 0.0, 1.5, 1, 4), 5u);
+  EXPECT_EQ(reported_after(tracker, 1.5, 19.5, 1, 4), 0u);
+  EXPECT_EQ(reported_after(tracker, 19.5, 49.5, 1, 0), 1u);
+}
+
+TEST(MovingObstacleTracker, ReportsACrowd) {
+  MovingObstacleTracker tracker({});
+  EXPECT_EQ(reported_after(tracker, 0.0, 39.5, 8, 0), 8u);
 }
 
 // Matching finds different parts of a corridor wall in each image, some of them in space that was observed as free.
