@@ -7,23 +7,19 @@ CELL_M = 0.25
 BESIDE_M = 30.0  # searched space around the points of a mission
 
 
-def local(row, north, east, down):
-    """A position in the axes of an obstacle, m."""
+def axes_of(row):
+    """Unit vectors along x, y and z of an obstacle, as (north, east, down)."""
     w, x, y, z = (float(row[key]) for key in ("qw", "qx", "qy", "qz"))
-    p = (north - float(row["north_m"]), east - float(row["east_m"]), down - float(row["down_m"]))
-    axes = ((1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),  # columns of the rotation matrix
+    return ((1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
             (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
             (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
-    return [sum(a * b for a, b in zip(axis, p)) for axis in axes]
 
 
-def distance_m(row, north, east, down):
-    """From a position to the surface of a box or of a cylinder along its z axis; 0 inside."""
-    x, y, z = local(row, north, east, down)
-    half = [0.5 * float(row[f"size_{axis}_m"]) for axis in "xyz"]
-    if row["shape"] == "cylinder":
+def distance_m(shape, half, x, y, z):
+    """From a position in the axes of a box, or of a cylinder along z, to its surface; 0 inside."""
+    if shape == "cylinder":
         return math.hypot(max(0.0, math.hypot(x, y) - half[0]), max(0.0, abs(z) - half[2]))
-    return math.hypot(*(max(0.0, abs(value) - size) for value, size in zip((x, y, z), half)))
+    return math.hypot(max(0.0, abs(x) - half[0]), max(0.0, abs(y) - half[1]), max(0.0, abs(z) - half[2]))
 
 
 def blocked_cells(rows, low, size, altitude, distance):
@@ -31,14 +27,17 @@ def blocked_cells(rows, low, size, altitude, distance):
     reach = distance + CELL_M * math.sqrt(0.5)
     blocked = set()
     for row in rows:
-        wide = 0.5 * math.hypot(*(float(row[f"size_{axis}_m"]) for axis in "xyz")) + reach
+        axes, half = axes_of(row), [0.5 * float(row[f"size_{axis}_m"]) for axis in "xyz"]
+        center = [float(row[key]) for key in ("north_m", "east_m", "down_m")]
         spans = []
-        for axis, key in enumerate(("north_m", "east_m")):
-            first, last = (math.floor((float(row[key]) + side * wide - low[axis]) / CELL_M) for side in (-1, 1))
-            spans.append(range(max(0, first), min(size[axis], last + 1)))
+        for k in range(2):
+            wide = sum(abs(axis[k]) * size for axis, size in zip(axes, half)) + reach
+            first, last = (math.floor((center[k] + side * wide - low[k]) / CELL_M) for side in (-1, 1))
+            spans.append(range(max(0, first), min(size[k], last + 1)))
         for i in spans[0]:
             for j in spans[1]:
-                if distance_m(row, low[0] + (i + 0.5) * CELL_M, low[1] + (j + 0.5) * CELL_M, -altitude) < reach:
+                off = (low[0] + (i + 0.5) * CELL_M - center[0], low[1] + (j + 0.5) * CELL_M - center[1], -altitude - center[2])
+                if distance_m(row["shape"], half, *(sum(a * b for a, b in zip(axis, off)) for axis in axes)) < reach:
                     blocked.add((i, j))
     return blocked
 
@@ -48,7 +47,7 @@ def has_way(rows, points, altitude, radius, distance):
 
     rows  obstacles as `hedgehop import --solids` writes them. points  (north, east), m. altitude  of the flight, m.
     radius  within which a point after the first one counts as reached, m. distance  from the vehicle's center, m.
-    True is certain. False may be an error if the way is less than a cell wider than the distance.
+    True is certain. False may be an error if the way is less than three cells wider than twice the distance.
     """
     low = [min(point[axis] for point in points) - BESIDE_M for axis in range(2)]
     size = [math.ceil((max(point[axis] for point in points) + BESIDE_M - low[axis]) / CELL_M) for axis in range(2)]
