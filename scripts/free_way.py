@@ -3,7 +3,7 @@
 import collections
 import math
 
-CELL_M = 0.25
+CELLS_M = (0.25, 0.1)  # the finer one only if the coarser one shows no way
 BESIDE_M = 30.0  # searched space around the points of a mission
 
 
@@ -22,21 +22,21 @@ def distance_m(shape, half, x, y, z):
     return math.hypot(max(0.0, abs(x) - half[0]), max(0.0, abs(y) - half[1]), max(0.0, abs(z) - half[2]))
 
 
-def blocked_cells(rows, low, size, altitude, distance):
+def blocked_cells(rows, low, size, cell, altitude, distance):
     """Cells that have a point closer than the distance to an obstacle."""
-    reach = distance + CELL_M * math.sqrt(0.5)
+    reach = distance + cell * math.sqrt(0.5)
     blocked = set()
     for row in rows:
         axes, half = axes_of(row), [0.5 * float(row[f"size_{axis}_m"]) for axis in "xyz"]
         center = [float(row[key]) for key in ("north_m", "east_m", "down_m")]
         spans = []
         for k in range(2):
-            wide = sum(abs(axis[k]) * size for axis, size in zip(axes, half)) + reach
-            first, last = (math.floor((center[k] + side * wide - low[k]) / CELL_M) for side in (-1, 1))
+            wide = sum(abs(axis[k]) * extent for axis, extent in zip(axes, half)) + reach
+            first, last = (math.floor((center[k] + side * wide - low[k]) / cell) for side in (-1, 1))
             spans.append(range(max(0, first), min(size[k], last + 1)))
         for i in spans[0]:
             for j in spans[1]:
-                off = (low[0] + (i + 0.5) * CELL_M - center[0], low[1] + (j + 0.5) * CELL_M - center[1], -altitude - center[2])
+                off = (low[0] + (i + 0.5) * cell - center[0], low[1] + (j + 0.5) * cell - center[1], -altitude - center[2])
                 if distance_m(row["shape"], half, *(sum(a * b for a, b in zip(axis, off)) for axis in axes)) < reach:
                     blocked.add((i, j))
     return blocked
@@ -47,21 +47,25 @@ def has_way(rows, points, altitude, radius, distance):
 
     rows  obstacles as `hedgehop import --solids` writes them. points  (north, east), m. altitude  of the flight, m.
     radius  within which a point after the first one counts as reached, m. distance  from the vehicle's center, m.
-    True is certain. False may be an error if the way is less than three cells wider than twice the distance.
+    True is certain. False may be an error if the way is less than 0.3 m wider than twice the distance.
     """
+    return any(has_way_on_grid(rows, points, cell, altitude, radius, distance) for cell in CELLS_M)
+
+
+def has_way_on_grid(rows, points, cell, altitude, radius, distance):
     low = [min(point[axis] for point in points) - BESIDE_M for axis in range(2)]
-    size = [math.ceil((max(point[axis] for point in points) + BESIDE_M - low[axis]) / CELL_M) for axis in range(2)]
-    blocked = blocked_cells(rows, low, size, altitude, distance)
-    cells = [tuple(math.floor((point[axis] - low[axis]) / CELL_M) for axis in range(2)) for point in points]
+    size = [math.ceil((max(point[axis] for point in points) + BESIDE_M - low[axis]) / cell) for axis in range(2)]
+    blocked = blocked_cells(rows, low, size, cell, altitude, distance)
+    cells = [tuple(math.floor((point[axis] - low[axis]) / cell) for axis in range(2)) for point in points]
     found = {cells[0]} - blocked
     for point in points[1:]:
         open_cells = collections.deque(found)
         while open_cells:
             i, j = open_cells.popleft()
-            for cell in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
-                if cell not in found and cell not in blocked and 0 <= cell[0] < size[0] and 0 <= cell[1] < size[1]:
-                    found.add(cell)
-                    open_cells.append(cell)
+            for step in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
+                if step not in found and step not in blocked and 0 <= step[0] < size[0] and 0 <= step[1] < size[1]:
+                    found.add(step)
+                    open_cells.append(step)
         found = {(i, j) for i, j in found
-                 if math.hypot(low[0] + (i + 0.5) * CELL_M - point[0], low[1] + (j + 0.5) * CELL_M - point[1]) <= radius}
+                 if math.hypot(low[0] + (i + 0.5) * cell - point[0], low[1] + (j + 0.5) * cell - point[1]) <= radius}
     return bool(found)
