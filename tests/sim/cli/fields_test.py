@@ -122,24 +122,25 @@ class Fields(unittest.TestCase):
     def test_table_counts_success_by_density_source_and_speed(self):
         out = self.folder / "out"
         (out / "flights").mkdir(parents=True)
-        (out / "fields.csv").write_text("field,source,density,way\nthin,barn,0.5,True\ndense,barn,4,False\n")
+        (out / "fields.csv").write_text("field,source,density,way\nthin,barn,0.5,True\ndense,barn,4,False\nthick,barn,12,False\n")
         cells, rows = [], []
         for field, module, ends in (("thin", "local_map 3", ["reached"] * 9 + ["timeout"]), ("dense", "local_map 3", ["reached", "collided"]),
-                                    ("dense", "section_grid own", ["timeout"])):
+                                    ("dense", "section_grid own", ["timeout"]), ("thick", "section_grid own", ["timeout"])):
             cells.append({"group": f"{field}/{module}", "world": field, "module": module, "reason": ""})
             rows += [f"{field}/{module},flown,{end}" for end in ends]
         rows.append("dense/local_map 3,failed,failed")  # was not flown
         (out / "flights/leaderboard.json").write_text(json.dumps({"cells": cells}))
         (out / "flights/batch.csv").write_text("\n".join(["group,status,outcome", *rows]) + "\n")
         text = self.fields("table", "out")
-        # Intervals of Wilson from a table: 9 of 10, 1 of 2, 10 of 12, 0 of 1.
+        # Intervals of Wilson from a table: 9 of 10, 1 of 2, 10 of 12, 0 of 2.
         self.assertIn("| obstacles in 100 m² | module | 3 m/s | own speed |", text)
         self.assertIn("| 0 to 1 | local_map | 90 % (60 to 98) of 10 | - |", text)
         self.assertIn("| 3 to 10 | local_map | 50 % (9 to 91) of 2; 1 collided | - |", text)
         self.assertIn("| all | local_map | 83 % (55 to 95) of 12; 1 collided | - |", text)
-        self.assertIn("| barn | section_grid | - | 0 % (0 to 79) of 1 |", text)
+        self.assertIn("| barn | section_grid | - | 0 % (0 to 66) of 2 |", text)
         self.assertIn("| static, with a way of 0.94 m | local_map | 90 % (60 to 98) of 10 | - |", text)
-        self.assertIn("13 flights.", text)
+        self.assertEqual(re.findall(r"^\| (\d.*?|all) \| section_grid", text, re.M), ["3 to 10", "10 or more", "all"])
+        self.assertIn("14 flights.", text)
         page, before = self.folder / "source/docs/validation.md", (SOURCE / "docs/validation.md").read_text()
         for _ in range(2):  # also over its own text
             self.fields("table", "out", "--write", "sample")
