@@ -53,6 +53,7 @@ def has_way(rows, points, altitude, radius, distance):
 
 
 def has_way_on_grid(rows, points, cell, altitude, radius, distance):
+    """The same on one grid with a spacing of cell, m: a flood from point to point through cells that are not blocked."""
     low = [min(point[axis] for point in points) - BESIDE_M for axis in range(2)]
     size = [math.ceil((max(point[axis] for point in points) + BESIDE_M - low[axis]) / cell) for axis in range(2)]
     blocked = blocked_cells(rows, low, size, cell, altitude, distance)

@@ -141,15 +141,15 @@ TEST(MovingObstacleTracker, ReportsNoMovingObstacleInAStaticWorld) {
 /// Obstacles cross at 0.5 m/s, each in its own lane. Sudden ones cross at 2 m/s; every two seconds they vanish and
 /// appear again as a whole. Returns the number that the tracker reports at the end.
 size_t reported_after(MovingObstacleTracker& tracker, double from_s, double to_s, int obstacles, int sudden) {
-  constexpr double kRadiusM = 0.8, kVoxelM = 0.03;
+  constexpr double kRadiusM = 0.8, kToleranceM = 0.03;
   for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
     std::vector<SurfacePoint> seen;
     for (int i = 0; i < obstacles + sudden; ++i) {
       const double for_s = std::fmod(t_s, i < obstacles ? 10.0 : 2.0);
       const Eigen::Vector2d v_W(0.0, i < obstacles ? 0.5 : 2.0);
       const Eigen::Vector2d p_W = Eigen::Vector2d(5.0 + 3.0 * i, -2.0) + for_s * v_W;
-      for (SurfacePoint point : face_of(p_W, kRadiusM, p_W)) {
-        const bool appears = (point.p_W - (p_W - 0.1 * v_W)).norm() > kRadiusM + kVoxelM;
+      for (const SurfacePoint& point : face_of(p_W, kRadiusM, p_W)) {
+        const bool appears = (point.p_W - (p_W - 0.1 * v_W)).norm() > kRadiusM + kToleranceM;
         seen.push_back({point.p_W, appears || (i >= obstacles && for_s < 0.05)});
       }
     }
