@@ -1,4 +1,5 @@
 """scripts/fields: the sample of a synthetic list, flights that `hedgehop validate` accepts, and tables of made-up results.
+scripts/validation: the table of made-up failure searches.
 
 usage: fields_test.py PROGRAM SOURCE
 """
@@ -29,13 +30,16 @@ class Fields(unittest.TestCase):
         for name, x, y in (("m1_test_0", 2, 20), ("m1_test_1", 5, 25), ("m2_test_0", -3, 30)):
             (self.folder / "tests" / f"{name}.yaml").write_text(BOXES.format(x=x, y=y))
         # The script writes into its own source tree.
-        for part in ("scripts/fields", "scripts/free_way.py", "scripts/generated_tables.py", "configs", "docs/validation.md"):
+        for part in ("scripts/fields", "scripts/free_way.py", "scripts/generated_tables.py", "scripts/validation", "configs", "docs/validation.md"):
             copy, whole = self.folder / "source" / part, SOURCE / part
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copytree(whole, copy) if whole.is_dir() else shutil.copy(whole, copy)
 
     def fields(self, *words, status=0):
-        done = subprocess.run([sys.executable, self.folder / "source/scripts/fields", *words], cwd=self.folder, capture_output=True,
+        return self.script("fields", *words, status=status)
+
+    def script(self, name, *words, status=0):
+        done = subprocess.run([sys.executable, self.folder / "source/scripts" / name, *words], cwd=self.folder, capture_output=True,
                               text=True, env={**os.environ, "HEDGEHOP": str(PROGRAM)})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
@@ -147,6 +151,22 @@ class Fields(unittest.TestCase):
             parts = [re.fullmatch(r"(.*<!-- fields: sample -->\n)(.*?)(<!-- end -->.*)", whole, re.S) for whole in (before, page.read_text())]
             self.assertEqual(parts[0].group(1, 3), parts[1].group(1, 3))
             self.assertEqual(parts[1][2], text)
+
+    def test_the_scores_of_a_module_are_added_over_its_missions(self):
+        def score(failure, diversity):
+            return {"failure_score": failure, "diversity_score": diversity}
+        suites = [{"confirmed": 1, "tests": [{}] * 3, "of_confirmed": score(20.5, None), "of_all": score(31.25, 0.8)},
+                  {"confirmed": 2, "tests": [{}] * 2, "of_confirmed": score(4.25, 0.5), "of_all": score(4.25, 0.5)}]
+        for mission, suite in enumerate(suites, 1):
+            folder = self.folder / f"searches/mission_{mission}_section_grid"
+            folder.mkdir(parents=True)
+            (folder / "falsify.json").write_text(json.dumps({"flights": 100, "failing_flights": 7, "suite": suite}))
+        self.script("validation", "scores", "searches")
+        text = (self.folder / "source/docs/validation.md").read_text()
+        self.assertIn("| `section_grid` | 1 | 100 | 7 | 3 | 1 | 20.50 | - | 31.25 | 0.80 |\n", text)
+        self.assertIn("| `section_grid` | sum | 200 | 14 | 5 | 3 | 24.75 | 0.50 | 35.50 | 1.30 |\n", text)
+        (folder / "falsify.json").write_text(json.dumps({"flights": 40, "failing_flights": 7, "suite": None}))
+        self.assertIn("mission_2_section_grid/falsify.json: the tests of this search are not flown", self.script("validation", "scores", "searches", status=1))
 
 
 if __name__ == "__main__":
