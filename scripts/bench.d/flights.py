@@ -5,7 +5,6 @@ are printed, too.
 """
 
 import json
-import pathlib
 import re
 import resource
 import shutil

@@ -3,7 +3,6 @@
 import fnmatch
 import pathlib
 import re
-import sys
 
 import prose
 from tree import Fault, files, read

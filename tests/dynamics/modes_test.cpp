@@ -48,7 +48,9 @@ TEST(Modes, NameTheRollSubsidence) {
 TEST(Modes, EigenvectorsSolveTheModel) {
   const NamedLinearSystem linear = *linear_system(helicopter::HelicopterConfig{}, {8.0, 0.0, 0.0});
   constexpr double kRounding = 1e-8;
-  for (const Mode& mode : modes(linear, 8.0)) {
+  const std::vector<Mode> found = modes(linear, 8.0);
+  ASSERT_FALSE(found.empty());
+  for (const Mode& mode : found) {
     const Eigen::VectorXcd residual =
         linear.system.A.cast<std::complex<double>>() * mode.eigenvector - mode.eigenvalue * mode.eigenvector;
     EXPECT_LT(residual.norm(), kRounding * (1.0 + mode.frequency_radps) * mode.eigenvector.norm()) << mode.name;

@@ -18,7 +18,7 @@ namespace hedgehop::avoidance::section_grid {
 class SectionWorld {
  public:
   static constexpr int kWidthPx = 96, kHeightPx = 54;
-  static constexpr double kStepS = 0.08, kLatencySteps = 1, kTurnRadps = 0.785, kClimbMps = 1.0;
+  static constexpr double kStepS = 0.08, kTurnRadps = 0.785, kClimbMps = 1.0;
 
   struct Moment {
     Eigen::Vector3d p_WB;

@@ -19,7 +19,6 @@ constexpr double kPerMille = 1e-3;
 
 const RotorDisc kXCell = make_model(HelicopterConfig{}).main_rotor.disc;
 const double kHoverInflowMps = std::sqrt(kWeightN / (2.0 * kXCell.density_kgpm3 * kXCell.area_m2));
-const double kSolidityTimesSlope = 0.047644 * 5.5;
 
 /// Returns the collective for a thrust, by bisection.
 double collective_for(const RotorDisc& disc, double thrust_n, double upflow, double inplane) {

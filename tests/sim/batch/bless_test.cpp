@@ -93,6 +93,7 @@ TEST(Bless, MissingReferenceIsRefusedBeforeTheFlight) {
 
 TEST(ShippedSweeps, AreAcceptedWhole) {
   const CampaignFolder folder;
+  ASSERT_FALSE(std::filesystem::is_empty(HEDGEHOP_SOURCE_DIR "/configs/sweeps"));
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/sweeps")) {
     const CommandEnd end = folder.hedgehop("sweep '" + entry.path().string() + "' --missing --out none");
     EXPECT_EQ(end.status, 0) << end.err;
@@ -103,6 +104,7 @@ TEST(ShippedSweeps, AreAcceptedWhole) {
 TEST(ShippedCampaigns, AreAcceptedWhole) {
   const CampaignFolder folder;
   const std::string nothing = folder.worker("exit 3");
+  ASSERT_FALSE(std::filesystem::is_empty(HEDGEHOP_SOURCE_DIR "/configs/campaigns"));
   for (const auto& entry : std::filesystem::directory_iterator(HEDGEHOP_SOURCE_DIR "/configs/campaigns")) {
     const CommandEnd end =
         folder.hedgehop("batch '" + entry.path().string() + "' --seeds 1 --out out --program " + nothing);

@@ -56,14 +56,20 @@ T load_struct(const std::filesystem::path& file, const std::vector<std::string>&
 
 inline const std::filesystem::path kConfigs = std::filesystem::path(HEDGEHOP_SOURCE_DIR) / "configs";
 
-/// Every scenario that ships with the project, in order of name.
-inline std::vector<std::filesystem::path> shipped_scenarios() {
+/// The scenarios of folders below configs/, in order of name.
+inline std::vector<std::filesystem::path> scenarios_in(std::initializer_list<const char*> folders) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  for (const char* folder : folders) {
+    for (const auto& entry : std::filesystem::directory_iterator((kConfigs / folder).lexically_normal())) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   return files;
 }
+
+/// Every scenario that ships with the project. Worlds and modules of the leaderboard are parts, which the tests of its
+/// campaigns join.
+inline std::vector<std::filesystem::path> shipped_scenarios() { return scenarios_in({".", "links", "worlds"}); }
 
 }  // namespace hedgehop::sim

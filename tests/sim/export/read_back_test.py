@@ -159,7 +159,7 @@ class ReadBack(unittest.TestCase):
 
     def test_points_of_known_depth_are_at_their_projection(self):
         """Projects patches of the left image into the right one by depth and calibration, and compares their positions."""
-        K_left, X_left = self.euroc.camera("cam1")
+        _, X_left = self.euroc.camera("cam1")
         K_right, X_right = self.euroc.camera("cam2")
         X_right_left = np.linalg.inv(X_right) @ X_left
         left, right = self.euroc.images("cam1"), self.euroc.images("cam2")

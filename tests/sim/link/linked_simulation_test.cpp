@@ -106,6 +106,8 @@ TEST(LinkedSimulation, GustBeginsAtItsTimeAfterTheStartOfTheFlight) {
   const Flight flight =
       Simulation(scenario_with({"wind.gust={speed: 5, start: 0.05, length: 1e-3, hold: 1000}"}), nullptr, &autopilot)
           .run();
+  EXPECT_LT(flight.trajectory.front().t_s, 0.055);
+  EXPECT_GT(flight.trajectory.back().t_s, 0.055);
   for (const TrajectoryRow& row : flight.trajectory) {
     EXPECT_NEAR(row.wind_W.x(), row.t_s < 0.055 ? 0.0 : -5.0, 1e-9) << row.t_s;
   }

@@ -60,7 +60,9 @@ class Texts(unittest.TestCase):
 
 class Sources(unittest.TestCase):
     def test_they_are_python_3_9(self):
-        for file in (SOURCE / "sim/python/hedgehop").glob("*.py"):
+        files = list((SOURCE / "sim/python/hedgehop").glob("*.py"))
+        self.assertTrue(files)
+        for file in files:
             ast.parse(file.read_text(), str(file), feature_version=(3, 9))
 
 

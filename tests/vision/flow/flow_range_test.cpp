@@ -63,6 +63,7 @@ TEST(FlowRange, FloorScalesTheInverseRangeByTheWeight) {
     const FlowField field =
         plane_flow(camera(), grid_field(8, 8, 32, 400), {0, 0, kRangeM}, {0, 0, 1}, v_WC_C, {0, 0, 0}, kStepS);
     const std::vector<double> weights = parallax_weights(field, camera(), v_WC_C, kFloorMps);
+    ASSERT_EQ(weights.size(), field.vectors.size());
     for (size_t i = 0; i < weights.size(); ++i) {
       EXPECT_NEAR(inverse_depth_per_m(field.vectors[i], camera(), v_WC_C, kStepS, kFloorMps), weights[i] / kRangeM,
                   2e-3 / kRangeM);
@@ -73,6 +74,7 @@ TEST(FlowRange, FloorScalesTheInverseRangeByTheWeight) {
 TEST(FlowRange, BearingsAreTheAzimuthsOfThePatchesRays) {
   const FlowField field = grid_field(4, 6, 32, 400);
   const std::vector<double> bearings = bearings_rad(field, camera());
+  ASSERT_EQ(bearings.size(), field.vectors.size());
   for (size_t i = 0; i < bearings.size(); ++i) {
     const Eigen::Vector3d ray = camera().ray_at_unit_depth(field.vectors[i].center_px);
     EXPECT_NEAR(bearings[i], std::atan2(ray.x(), ray.z()), 1e-12);

@@ -95,7 +95,9 @@ TEST(LandmarkBundle, RejectsTheApparentCornerOfAnEdgeThatHidesAnother) {
   });
   Arc::Points started = kCorners;
   started.emplace_back(5, Vector3d(10, 3, -10));
-  for (const AdjustedLandmark& one : arc.adjust(started)) EXPECT_EQ(one.is_point, one.id != 5) << one.id;
+  const auto adjusted = arc.adjust(started);
+  ASSERT_EQ(adjusted.size(), started.size());
+  for (const AdjustedLandmark& one : adjusted) EXPECT_EQ(one.is_point, one.id != 5) << one.id;
 }
 
 TEST(LandmarkBundle, JoinsACornerThatWasLostAndFoundAgain) {

@@ -4,7 +4,6 @@ usage: junit_test.py PROGRAM SOURCE [NODE FOLDER_OF_NODE_MODULES]
 """
 
 import json
-import os
 import pathlib
 import re
 import subprocess
