@@ -179,8 +179,8 @@ class Module {
   /// std::logic_error
   /// - if reset() was not called or time does not increase;
   /// - if navigation or goal are not finite;
-  /// - if a frame is from the future, or does not have the size of its camera or the required channel (corners have no
-  /// size);
+  /// - if a frame is of a camera that reset() did not name, is from the future, or does not have the size of its camera
+  /// or the required channel (corners have no size);
   /// - if do_update() returns a command that is not finite or of a type that the module does not declare, or the wrong
   /// number of signals.
   Decision update(const Observation& observation);

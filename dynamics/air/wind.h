@@ -118,7 +118,7 @@ class Wind {
   Eigen::Vector3d sample(double height_m, const Eigen::Vector3d& v_WB_W, double dt_s);
   /// Stops the time of the gust until start_gust(), for a vehicle that is not yet in flight.
   void delay_gust() { gust_runs_ = false; }
-  /// Starts the time of the gust at 0.
+  /// Lets the time of the gust run.
   void start_gust() { gust_runs_ = true; }
 
  private:

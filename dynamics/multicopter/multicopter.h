@@ -158,7 +158,7 @@ MulticopterLoads multicopter_loads(const MulticopterModel& model, const RigidBod
                                    const Eigen::Vector3d& wind_W);
 
 /// Returns the rotor speeds, within [0, highest], for thrust and torques. If the rotors saturate, it reduces yaw torque
-/// first, then thrust, then roll and pitch torque.
+/// first, then raises or reduces thrust, then reduces roll and pitch torque.
 PerRotor allocate(const MulticopterModel& model, const Controls& command);
 /// Returns thrust and torques of the rotors at rest in still air.
 Controls wrench(const MulticopterModel& model, const PerRotor& speeds_radps);

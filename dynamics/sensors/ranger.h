@@ -28,11 +28,11 @@ void describe(Visitor& v, fields::ConfigOf<RangerConfig> auto& c) {
   v("enabled", c.enabled, {.meaning = "whether the vehicle has this sensor"});
   v("rate", c.rate_hz,
     {.unit = "Hz", .at_least = fields::kMinRateHz, .meaning = "readings per second; divides the physics rate"});
-  v("min", c.min_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum range of a reading"});
-  v("max", c.max_m, {.unit = "m", .above = 0.0, .meaning = "maximum range of a reading"});
-  v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "white noise at range 0"});
+  v("min", c.min_m, {.unit = "m", .at_least = 0.0, .meaning = "minimum true range that gives a reading"});
+  v("max", c.max_m, {.unit = "m", .above = 0.0, .meaning = "maximum true range that gives a reading"});
+  v("noise", c.noise_m, {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the white noise at range 0"});
   v("noise_per_range", c.noise_per_range,
-    {.at_least = 0.0, .at_most = 1.0, .meaning = "white noise in proportion to the range"});
+    {.at_least = 0.0, .at_most = 1.0, .meaning = "standard deviation of a second white noise, divided by the range"});
   v("offset", c.offset_m,
     {.unit = "m", .at_least = 0.0, .meaning = "standard deviation of the offset drawn at turn-on"});
   v("dropout", c.dropout, {.at_least = 0.0, .at_most = 1.0, .meaning = "probability that a reading is missing"});

@@ -73,7 +73,9 @@ class SensorFailures {
   SensorFailures() = default;
   explicit SensorFailures(std::vector<SensorFailure> failures);
 
-  /// Returns the delivered reading; nullopt if there was no reading or the instrument is off. Time must not decrease.
+  /// Returns the delivered reading; nullopt if there was no reading or the instrument is off. A stuck instrument
+  /// delivers its last delivered reading, also if there was no new one; nullopt if it has delivered none. Time must not
+  /// decrease.
   std::optional<Eigen::Vector3d> deliver(Instrument instrument, int64_t t_ns, std::optional<Eigen::Vector3d> reading) {
     return failures_.empty() ? reading : with_failures(instrument, t_ns, reading);
   }

@@ -227,7 +227,7 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
       app.add_subcommand("falsify",
                          "search for failing flights and store each as a minimal scenario; resumes after an "
                          "interruption. Exit status: 0 no failure in any flight; 1 confirmed failures; 3 a repeated "
-                         "failure differs; 4 undecided, because flights were not flown");
+                         "failure differs; 4 undecided, because flights were not flown or failures depend on the seed");
   const auto options = std::make_shared<FalsifyOptions>();
   options->jobs = usable_cores();
   command->add_option("FILE", options->file, "search file (YAML, see docs/falsify.md)")->required();

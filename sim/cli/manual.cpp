@@ -85,7 +85,9 @@ constexpr ExitStatus kExitStatuses[] = {
      "the input is bad, or the output folder cannot be created: one line per fault on standard error. Only the valid "
      "scenarios of a batch are flown"},
     {3, "internal error, or results that cannot be written later"},
-    {4, "undecided: after the last seed, the claim of --until is neither shown nor refuted; add seeds and --resume"},
+    {4,
+     "undecided: after the last seed, the claim of --until is neither shown nor refuted (add seeds and --resume); "
+     "or a search for failures confirmed none, although flights were not flown or failures depend on the seed"},
     {130, "interrupted (Ctrl-C, SIGINT)"},
     {143, "terminated (SIGTERM)"},
 };

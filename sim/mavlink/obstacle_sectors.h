@@ -26,8 +26,9 @@ class ObstacleSectors {
   static constexpr double kWidthDeg = 5.0;
 
   const SectorRange& at(int sector) const { return ranges_[static_cast<size_t>(sector)]; }
-  /// Adds an obstacle at a horizontal position in H, m.
+  /// Adds an obstacle in the direction of a horizontal position in H, m. @param range_m  horizontal, from Bo.
   void add_obstacle(double forward_m, double right_m, double range_m);
+  /// Marks the sector of a horizontal position in H, m, as seen.
   void add_free(double forward_m, double right_m);
   /// Keeps the nearer obstacles of both.
   void merge(const ObstacleSectors& other);
@@ -48,8 +49,9 @@ class DepthToSectors {
   /// @param X_BC  pose of the camera in B. Throws std::invalid_argument if `max_m` is not above `min_m`.
   DepthToSectors(const vision::camera::Camera& camera, const Eigen::Isometry3d& X_BC, const SectorLimits& limits);
 
-  /// Returns the sectors of a depth image. A point counts as an obstacle if it is in the height band. A ray shows that
-  /// its sector is free if it stays in the height band up to the maximum range without meeting a surface.
+  /// Returns the sectors of a depth image. A point counts as an obstacle if it is within the heights and ranges of the
+  /// limits. A ray that meets no surface up to the maximum range shows that the sector at its end is free, if the end
+  /// is in the height band.
   /// @param depth_m  rows x cols, CV_32FC1, m: z in C, of a fisheye the range; +infinity: no surface; NaN: unknown.
   /// @param q_WB_est  attitude of B.
   ObstacleSectors sectors(const cv::Mat& depth_m, const Eigen::Quaterniond& q_WB_est) const;

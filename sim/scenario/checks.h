@@ -72,7 +72,7 @@ void describe(Visitor& v, fields::ConfigOf<InsideBoxCheck> auto& c) {
 
 struct MaxSpeedCheck {
   static constexpr std::string_view kName = "max_speed";
-  static constexpr std::string_view kMeaning = "the speed over ground stays below a limit";
+  static constexpr std::string_view kMeaning = "the speed in three dimensions over ground stays below a limit";
   double at_most_mps = 0.0;
 };
 template <class Visitor>

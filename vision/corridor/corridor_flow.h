@@ -55,26 +55,6 @@ struct FlowLimits {
   double floor_share = 0.85;  ///< share of the height above ground; lower points belong to the floor
 };
 
-template <class Visitor>
-void describe(Visitor& v, fields::ConfigOf<FlowLimits> auto& c) {
-  v("slowest", c.slowest_radps,
-    {.unit = "rad/s", .at_least = 0.0, .meaning = "minimum flow; noise dominates slower flow"});
-  v("fastest", c.fastest_radps,
-    {.unit = "rad/s", .above = 0.0, .meaning = "maximum flow; faster flow is a wrong match"});
-  v("off_tangent", c.off_tangent_rad,
-    {.unit = "deg",
-     .above = 0.0,
-     .at_most = 90.0,
-     .meaning = "maximum angle at the sides between the flow and a circle around the image's center; 90: any"});
-  v("stray", c.stray_rad,
-    {.unit = "deg",
-     .above = 0.0,
-     .at_most = 180.0,
-     .meaning = "maximum angle between the flow and the flow direction of fixed points; 180: any"});
-  v("floor_share", c.floor_share,
-    {.above = 0.0, .meaning = "share of the height above ground; lower points belong to the floor"});
-}
-
 /// Motion of the camera between the older image (C1) and the newer one (C2). Frame H: level, x along the heading, y to
 /// the right.
 struct CameraMotion {

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/fields/field.h"
 #include "vision/corridor/corridor_flow.h"
 
 namespace hedgehop::vision::corridor {
@@ -18,23 +17,6 @@ struct GapConfig {
       15.0 * std::numbers::pi / 180.0;  ///< minimum angle from the direction of travel; noise dominates closer to it
   int least = 6;                        ///< minimum number of points for a slice or a free time
 };
-
-template <class Visitor>
-void describe(Visitor& v, fields::ConfigOf<GapConfig> auto& c) {
-  v("behind", c.behind_m,
-    {.unit = "m", .at_least = 0.0, .meaning = "distance behind the camera over which the gap is measured"});
-  v("ahead", c.ahead_m,
-    {.unit = "m", .above = 0.0, .meaning = "distance ahead of the camera over which the gap is measured"});
-  v("slice", c.slice_m, {.unit = "m", .above = 0.0, .meaning = "length of the slices in which the gap is measured"});
-  v("share", c.share,
-    {.at_least = 0.0, .below = 0.5, .meaning = "share of a slice's points, the nearest, ignored as outliers"});
-  v("least_angle", c.least_rad,
-    {.unit = "deg",
-     .at_least = 0.0,
-     .at_most = 90.0,
-     .meaning = "minimum angle of points from the direction of travel"});
-  v("least", c.least, {.at_least = 1, .meaning = "minimum number of points in a slice"});
-}
 
 /// Free distance to the left and right over the measured length, m; NaN if no slice has enough points.
 struct Gap {

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "sim/fields/field.h"
 #include "vision/camera/pinhole_camera.h"
 #include "vision/flow/flow_field.h"
 
@@ -17,16 +16,6 @@ struct FlowVelocityConfig {
   double max_view_angle_rad = 1.2;  ///< maximum angle of rays to the vertical, because range is uncertain beyond
   double sigma_floor_mps = 0.02;    ///< lower bound of the standard deviation
 };
-
-template <class Visitor>
-void describe(Visitor& v, fields::ConfigOf<FlowVelocityConfig> auto& c) {
-  v("min_vectors", c.min_vectors, {.at_least = 3, .meaning = "minimum number of valid flow vectors"});
-  v("min_height", c.min_height_m, {.unit = "m", .above = 0.0, .meaning = "minimum height for a velocity measurement"});
-  v("max_view_angle", c.max_view_angle_rad,
-    {.unit = "deg", .above = 0.0, .at_most = 85.0, .meaning = "maximum angle of rays to the vertical"});
-  v("sigma_floor", c.sigma_floor_mps,
-    {.unit = "m/s", .at_least = 0.0, .meaning = "lower bound of the standard deviation of the velocity"});
-}
 
 /// A velocity measured from a flow field.
 struct FlowVelocity {
@@ -48,7 +37,8 @@ struct FlowMotion {
 /// robust: it starts at the median and continues with least squares reweighted by Tukey's biweight, so that walls and
 /// roofs in less than half of the view have no effect. It includes the vertical velocity to avoid bias of the
 /// horizontal components.
-/// @param X_BC  pose of the camera in B.  @return std::nullopt if too few vectors are valid or agree.
+/// @param X_BC  pose of the camera in B.  @return std::nullopt if too few vectors are valid or agree, if they do
+/// not determine the velocity, below `min_height_m`, or unless `dt_s` is positive.
 /// Source: [Garratt2009] eq. (1) and sec. 4 (velocity from the down camera). Differs: a robust fit over the field.
 std::optional<FlowVelocity> flow_velocity(const FlowField& field, const camera::PinholeCamera& camera,
                                           const Eigen::Isometry3d& X_BC, const FlowMotion& motion,

@@ -51,7 +51,7 @@ class OccupancyMap {
   /// surfaces are not added to the map, because they would leave a trail.
   void integrate(const DepthBlocks& blocks, const stereo::StereoGeometry& geometry, const Eigen::Isometry3d& X_WC,
                  std::span<const MovingDisc> moving = {}, Instant instant = Instant::next);
-  /// A surface point of the last image, including points too distant for the map.
+  /// A surface point of the last image inside the window, including points too uncertain for the map.
   struct Hit {
     Eigen::Vector3d p_W;  ///< m
     bool was_free;        ///< whether its voxel was free before; a fixed obstacle does not appear in free space
@@ -60,7 +60,8 @@ class OccupancyMap {
   const std::vector<Hit>& hits() const { return hits_; }
   /// Moves all voxels one step toward unknown.
   void fade();
-  /// Marks the voxels with centers in a vertical cylinder as free, because the vehicle occupies it.
+  /// Marks the voxels of a vertical cylinder as free, because the vehicle occupies it: in each layer that it touches,
+  /// those with centers within its radius.
   void clear_cylinder(const Eigen::Vector3d& center_W, double radius_m, double half_height_m);
 
   State state(const Index& voxel) const;
@@ -91,7 +92,7 @@ class OccupancyMap {
   std::vector<int8_t> log_odds_;  ///< in steps of 0.4; 0: unknown
   std::vector<uint8_t> marks_;    ///< hit in this image; doubted in an image of this instant
   std::vector<size_t> hit_slots_, doubted_slots_;
-  std::vector<Hit> hits_;       ///< of hit_slots_
+  std::vector<Hit> hits_;
   std::vector<float> clear_m_;  ///< of each block
   /// Range of z in C in which a thin object reduces the evidence for free space; empty if from >= to.
   struct Doubt {

@@ -73,6 +73,13 @@ TEST(Checks, SpeedAndTiltReportTheirMaximum) {
   EXPECT_NEAR(tilt_deg, std::acos(R.col(2).z()) * 180.0 / M_PI, 1e-9);
 }
 
+TEST(Checks, RealtimeFactorHoldsFromItsLimitOn) {
+  StraightFlight f;
+  f.flight.result.realtime_factor = 2.0;
+  EXPECT_TRUE(f.evaluate(RealtimeFactorCheck{.at_least = 2.0}).passed);
+  EXPECT_FALSE(f.evaluate(RealtimeFactorCheck{.at_least = 2.01}).passed);
+}
+
 TEST(Checks, MetricFailsIfOutOfBoundsUnknownOrNotFinite) {
   StraightFlight f;
   EXPECT_TRUE(f.evaluate(MetricCheck{.name = "reversals", .at_least = 3.0, .at_most = 3.0}).passed);
