@@ -84,24 +84,39 @@ void require_hub(const char* key, double place_m, double radius_m) {
       key, text("%.4g m: beyond %.0f radii of the main rotor, %.4g m", place_m, kFar, radius_m) + advice);
 }
 
+/// Returns advice for an inertia that would have a plausible radius of gyration in another unit.
+std::string inertia_advice(double inertia_kgm2, double mass_kg, double size_m) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"kg cm2", 1e-4}, {"kg mm2", 1e-6}, {"g cm2", 1e-7}};
+  for (const auto& [unit, factor] : kUnits) {
+    if (inertia_kgm2 * factor >= mass_kg * size_m * size_m) continue;
+    return text("; %.6g %s is %.4g kg m2", inertia_kgm2, unit, inertia_kgm2 * factor);
+  }
+  return "";
+}
+
+/// Refuses the inertia of a rotor or blade that would have it only with more than its share of the vehicle's mass at
+/// the blade tip.
+void require_rotor_inertia(const char* key, double inertia_kgm2, double share_kg, double radius_m) {
+  constexpr double kUsualShare = 0.03;  // above those of all shipped vehicles
+  const double largest = share_kg * radius_m * radius_m;
+  if (!(inertia_kgm2 > largest)) return;
+  throw fields::InvalidField(
+      key, text("%.6g: the mass of the vehicle per rotor or blade, %.3g kg, has at most %.3g kg m2 within a radius of "
+                "%.4g m",
+                inertia_kgm2, share_kg, largest, radius_m) +
+               inertia_advice(inertia_kgm2, kUsualShare * share_kg, radius_m));
+}
+
 /// @param size_m  radius of a sphere about the mass center that contains the vehicle.
 void require_inertia(const MassConfig& mass, double size_m) {
   const double largest = mass.inertia_kgm2.maxCoeff();
   const double gyration_m = std::sqrt(largest / mass.mass_kg);
   constexpr double kRoughHull = 2.0;  // dimensions of the hull are rough
   if (!(gyration_m > kRoughHull * size_m)) return;
-  std::string advice;
-  constexpr std::pair<const char*, double> kUnits[] = {{"kg cm2", 1e-4}, {"kg mm2", 1e-6}, {"g cm2", 1e-7}};
-  for (const auto& [unit, factor] : kUnits) {
-    const double gyration = std::sqrt(largest * factor / mass.mass_kg);
-    if (advice.empty() && gyration < size_m) {
-      advice = text("; %.6g %s is %.4g kg m2", largest, unit, largest * factor);
-    }
-  }
   throw fields::InvalidField(
       "mass.inertia", text("%.6g: radius of gyration %.3g m, but the vehicle ends %.3g m from its mass center", largest,
                            gyration_m, size_m) +
-                          advice);
+                          inertia_advice(largest, mass.mass_kg, size_m));
 }
 
 }  // namespace
@@ -116,6 +131,9 @@ void require_plausible_units(const helicopter::HelicopterConfig& config) {
   require_hub("tail_rotor.height", config.tail_rotor.height_m, config.main_rotor.radius_m);
   const double reach_m = config.tail_rotor.arm_m + config.tail_rotor.radius_m;
   require_inertia(config.mass, std::max(config.main_rotor.radius_m, reach_m));
+  require_rotor_inertia("main_rotor.blade_inertia", config.main_rotor.blade_inertia_kgm2,
+                        config.mass.mass_kg / static_cast<double>(config.main_rotor.blades),
+                        config.main_rotor.radius_m);
 }
 
 void require_plausible_units(const multicopter::MulticopterConfig& config) {
@@ -124,6 +142,9 @@ void require_plausible_units(const multicopter::MulticopterConfig& config) {
   double longest_m = 0.0;
   for (const multicopter::ArmConfig& arm : config.arms) longest_m = std::max(longest_m, arm.length_m);
   require_inertia(config.mass, longest_m + config.rotor.radius_m);
+  require_rotor_inertia("rotor.inertia", config.rotor.inertia_kgm2,
+                        config.mass.mass_kg / static_cast<double>(std::max<size_t>(config.arms.size(), 1)),
+                        config.rotor.radius_m);
 }
 
 std::string mass_unit_advice(double mass_kg, double max_lift_n) {
@@ -131,6 +152,27 @@ std::string mass_unit_advice(double mass_kg, double max_lift_n) {
   const double weight_n = mass_kg * kGravityMps2;
   if (!(weight_n > kFarTooHeavy * max_lift_n && weight_n < kGramsPerKg * max_lift_n)) return "";
   return text("; a mass of %.6g g is %.4g kg", mass_kg, mass_kg / kGramsPerKg);
+}
+
+std::string lift_unit_advice(const multicopter::MulticopterConfig& config) {
+  const multicopter::LiftRotorConfig& rotor = config.rotor;
+  const double max_lift_n =
+      rotor.thrust_ns2 * rotor.highest_radps * rotor.highest_radps * static_cast<double>(config.arms.size());
+  constexpr double kPerRpm2 = 1.0 / (kRadpsPerRpm * kRadpsPerRpm), kMaxLift = 6.0;  // 91.2; of the weight, chosen
+  const double lift = kPerRpm2 * max_lift_n / (config.mass.mass_kg * kGravityMps2);
+  if (!(lift > 1.0 && lift < kMaxLift)) return mass_unit_advice(config.mass.mass_kg, max_lift_n);
+  return text("; a thrust of %.4g N per rpm2 is %.4g N s2", rotor.thrust_ns2, rotor.thrust_ns2 * kPerRpm2);
+}
+
+std::string azimuth_unit_advice(const std::vector<multicopter::ArmConfig>& arms) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  double written = 0.0;
+  for (const multicopter::ArmConfig& arm : arms) {
+    const double azimuth = arm.azimuth_rad * kDegPerRad;
+    if (std::abs(azimuth) > kTurn) return "";
+    if (written == 0.0) written = azimuth;
+  }
+  return written == 0.0 ? "" : text("; %.3g rad is %.3g deg", written, written * kDegPerRad);
 }
 
 std::string rotor_speed_advice(const helicopter::MainRotor& rotor, double weight_n) {

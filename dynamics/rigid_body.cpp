@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/fields/invalid_field.h"
+
 namespace hedgehop::dynamics {
 
 RigidBodyVector to_vector(const RigidBodyState& state) {
@@ -29,10 +31,12 @@ MassProperties make_mass_properties(double mass_kg, const Eigen::Vector3d& princ
   mass.I_B(0, 2) = mass.I_B(2, 0) = -xz_kgm2;
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.I_B).eigenvalues();
   if (!mass.I_B.allFinite() || !(moments[0] > 0.0) || moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) {
-    throw std::invalid_argument(
-        "inertia is not that of a rigid body: principal moments must be positive and at most the sum of the other two, "
+    throw fields::InvalidField(
+        "mass.inertia",
+        "is not that of a rigid body: principal moments must be positive and at most the sum of the other two, "
         "got " +
-        std::to_string(moments[0]) + ", " + std::to_string(moments[1]) + ", " + std::to_string(moments[2]) + " kg m2");
+            std::to_string(moments[0]) + ", " + std::to_string(moments[1]) + ", " + std::to_string(moments[2]) +
+            " kg m2");
   }
   mass.I_B_inv = mass.I_B.inverse();
   return mass;

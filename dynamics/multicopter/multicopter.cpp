@@ -10,6 +10,7 @@
 
 #include "dynamics/plausible_units.h"
 #include "sim/fields/bounds.h"
+#include "sim/fields/invalid_field.h"
 
 namespace hedgehop::dynamics::multicopter {
 namespace {
@@ -58,7 +59,8 @@ std::vector<HullPart> hull(const MulticopterConfig& config) {
 
 MulticopterModel make_model(const MulticopterConfig& c) {
   fields::require_bounds(c);
-  require(c.arms.size() >= 3 && c.arms.size() <= MulticopterConfig::kMaxArms, "a multicopter has 3 to 16 arms");
+  fields::require(c.arms.size() >= 3 && c.arms.size() <= MulticopterConfig::kMaxArms, "arms",
+                  "a multicopter has 3 to 16");
   MulticopterModel model;
   model.mass = make_mass_properties(c.mass.mass_kg, c.mass.inertia_kgm2, c.mass.inertia_xz_kgm2);
   model.rotor = c.rotor;
@@ -79,18 +81,20 @@ MulticopterModel make_model(const MulticopterConfig& c) {
   const Eigen::Matrix4d gram = model.wrench_of_thrusts * model.wrench_of_thrusts.transpose();
   const Eigen::Vector4d scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
   const Eigen::Matrix4d balanced = scale.asDiagonal() * gram * scale.asDiagonal();
-  require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9,
-          "arms: thrust, roll, pitch and yaw cannot be controlled independently; spread the arms and let neighbors "
-          "turn in opposite directions");
+  fields::require(gram.diagonal().minCoeff() > 0.0 && std::abs(balanced.determinant()) > 1e-9, "arms",
+                  "thrust, roll, pitch and yaw cannot be controlled independently; spread the arms and let neighbors "
+                  "turn in opposite directions" +
+                      azimuth_unit_advice(c.arms));
   model.thrusts_of_wrench = model.wrench_of_thrusts.transpose() * gram.inverse();
 
   const PerRotor hover_n = model.thrusts_of_wrench.col(0) * (c.mass.mass_kg * kGravityMps2);
-  require(hover_n.minCoeff() > 0.0,
-          "arms: the vehicle cannot be balanced in a hover, one rotor would need negative thrust");
+  fields::require(
+      hover_n.minCoeff() > 0.0, "arms",
+      "the vehicle cannot be balanced in a hover, one rotor would need negative thrust" + azimuth_unit_advice(c.arms));
   require(hover_n.maxCoeff() < highest_thrust_n(c.rotor),
           "the rotors cannot lift the vehicle: a hover requires " + std::to_string(hover_n.maxCoeff()) +
               " N from one rotor, whose maximum is " + std::to_string(highest_thrust_n(c.rotor)) + " N" +
-              mass_unit_advice(c.mass.mass_kg, highest_thrust_n(c.rotor) * static_cast<double>(c.arms.size())));
+              lift_unit_advice(c));
   return model;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "sim/config/numbers.h"
@@ -52,6 +53,13 @@ void convert_units(Node& node, std::string_view key, ErrorList& errors) {
 std::string_view other_unit_key(std::string_view key, std::string_view unit) {
   for (const OtherUnit& row : kOtherUnits) {
     if (unit == "rad/s" && row.field == key) return row.key;
+  }
+  return "";
+}
+
+std::string_view rpm_key(std::string_view map, std::span<const std::string_view> fields) {
+  for (const OtherUnit& row : kOtherUnits) {
+    if (row.map == map && std::ranges::find(fields, row.field) != fields.end()) return row.key;
   }
   return "";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "sim/config/config_tree.h"
@@ -20,5 +21,7 @@ void convert_units(Entry& entry, std::string_view map, ErrorList& errors);
 
 /// Returns the key that gives a field in another unit; empty if there is none.
 std::string_view other_unit_key(std::string_view key, std::string_view unit);
+/// Returns the key that gives one of the fields of a map in rpm; empty if there is none. @param map  key of the map.
+std::string_view rpm_key(std::string_view map, std::span<const std::string_view> fields);
 
 }  // namespace hedgehop::sim

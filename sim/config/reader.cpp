@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "sim/config/other_units.h"
 #include "sim/fields/bounds.h"
 
 namespace hedgehop::sim {
@@ -15,11 +17,21 @@ std::string number_words(std::string_view noun, const fields::Field& field) {
   return field.unit.empty() ? std::string(noun) : fmt::format("{} in {}", noun, field.unit);
 }
 
+/// Returns "; 230 mm is 0.23 m" for a length far above a bound of a few meters; else "".
+std::string millimeter_advice(double length_m, std::string_view text, const fields::Field& field) {
+  constexpr double kFewM = 20.0, kFarAbove = 2.0, kMetersPerMm = 0.001;
+  const double bound_m = field.at_most.value_or(INFINITY), meters = kMetersPerMm * length_m;
+  if (field.unit != "m" || bound_m > kFewM || length_m < kFarAbove * bound_m) return "";
+  return fields::broken_bound(meters, field) ? "" : fmt::format("; {} mm is {:g} m", text, meters);
+}
+
 template <class T>
 bool within_bounds(T member, const Node& node, const std::string& path, const fields::Field& field, ErrorList& errors) {
   const std::optional<std::string> bound = fields::broken_bound(static_cast<double>(member), field);
-  if (bound) errors.add(node.position, FieldError{path, fmt::format("must be {}, got {}", *bound, node.text)}.text());
-  return !bound;
+  if (!bound) return true;
+  const std::string advice = millimeter_advice(static_cast<double>(member), node.text, field);
+  errors.add(node.position, FieldError{path, fmt::format("must be {}, got {}{}", *bound, node.text, advice)}.text());
+  return false;
 }
 
 void expected(std::string_view what, const Node& node, const std::string& path, ErrorList& errors) {
@@ -156,10 +168,14 @@ void StructReader::missing(std::string_view key, const fields::Field& field) con
 }
 
 void StructReader::finish() const {
+  const std::string_view rpm = rpm_key(std::string_view(path_).substr(path_.rfind('.') + 1), keys_);
+  std::vector<std::string_view> allowed = keys_;
+  if (!rpm.empty()) allowed.push_back(rpm);
   for (const Entry& entry : map_.entries) {
     if (std::find(keys_.begin(), keys_.end(), entry.key) != keys_.end()) continue;
+    const bool is_rpm = !rpm.empty() && entry.key.ends_with("rpm");
     errors_.add(entry.position, fmt::format("unknown key '{}' in {}{}", entry.key, errors_.path_text(path_),
-                                            errors_.advice(path_, entry.key, "", keys_)));
+                                            errors_.advice(path_, is_rpm ? rpm : entry.key, "", allowed)));
   }
 }
 

@@ -80,6 +80,9 @@ TEST(PlausibleUnits, RecognizeMillimetersGramsAndInertiasOfOtherUnits) {
   EXPECT_THAT(changed([](auto& c) { c.main_rotor.speed_radps = 167.0 * 0.10471975511965977; }),  // rad/s taken for rpm
               HasSubstr("did you mean `speed: 167`?"));
   EXPECT_THAT(changed([](auto& c) { c.mass.mass_kg = 8200.0; }), HasSubstr("a mass of 8200 g is 8.2 kg"));
+  multicopter::MulticopterConfig multi;
+  for (auto& arm : multi.arms) arm.azimuth_rad *= 0.017453292519943295;  // as if radians were written for degrees
+  EXPECT_THAT(refusal(multi), AllOf(StartsWith("arms: "), HasSubstr("1.57 rad is 90 deg")));
   EXPECT_THAT(changed([](auto& c) { c.mass.inertia_kgm2 *= 1e4; }), HasSubstr("3400 kg cm2 is 0.34 kg m2"));
   EXPECT_THAT(changed([](auto& c) {
                 constexpr double kRadPerDeg = 0.017453292519943295;

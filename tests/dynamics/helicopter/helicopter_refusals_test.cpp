@@ -30,7 +30,8 @@ TEST(HelicopterRefusals, NameTheInvalidValue) {
   EXPECT_EQ(refusal([](C&) {}), "flies");
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = -8.2; }), HasSubstr("mass.mass: must be > 0 kg, got -8.2"));
   EXPECT_THAT(refusal([](C& c) { c.mass.mass_kg = kNan; }), HasSubstr("mass.mass: must be finite, got nan"));
-  EXPECT_THAT(refusal([](C& c) { c.mass.inertia_kgm2.x() = 1.0; }), HasSubstr("inertia is not that of a rigid body"));
+  EXPECT_THAT(refusal([](C& c) { c.mass.inertia_kgm2.x() = 1.0; }),
+              HasSubstr("mass.inertia: is not that of a rigid body"));
   EXPECT_THAT(refusal([](C& c) { c.air_density_kgpm3 = 0.0; }), HasSubstr("air_density: must be > 0 kg/m3, got 0"));
   EXPECT_THAT(refusal([](C& c) { c.main_rotor.speed_radps = -167.0; }),
               HasSubstr("main_rotor.speed: must be > 0 rad/s, got -167"));
