@@ -131,6 +131,15 @@ class ConvertLog(unittest.TestCase):
         self.assertEqual(done.stdout, "t_s,x\n0.0,1.0\n")
         self.assertEqual((done.returncode, done.stderr), (0, "/dev/stdout: 1 rows, 2 columns\n"))
 
+    def test_a_list_into_a_closed_pipe_ends_without_a_message(self):
+        (self.folder / "flight.csv").write_text("t_s,x\n0,1\n")
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([DEBIAN_PYTHON, SOURCE / "scripts/convert-log", self.folder / "flight.csv", "--list"],
+                              stdout=writer, stderr=subprocess.PIPE, text=True)
+        os.close(writer)
+        self.assertEqual(done.stderr, "")
+
     def refused(self, words, name, data, *arguments):
         done, _ = self.convert(name, data, *arguments)
         self.assertEqual(done.returncode, 2, done.stderr)
