@@ -49,6 +49,7 @@ std::vector<ReadableRow> readable_rows(const HorizonErrors& row, bool has_positi
 }
 
 void print_table(const LogComparison& comparison) {
+  fmt::print("inputs: {}\n", LogColumnsConfig::kInputNames.at(static_cast<size_t>(comparison.inputs)));
   for (const HorizonErrors& row : comparison.rows) {
     fmt::print("horizon {} s, {} windows: RMSE\n{:>18}{:>12}{:>12}{:>20}{:>16}\n", row.horizon_s, row.windows, "state",
                "model", "unchanged", "constant velocity", "linear model");
@@ -97,14 +98,26 @@ Json comparison_json(const LogComparison& comparison) {
 LogComparison compare_files(const dynamics::VehicleConfig& vehicle, const CompareLogOptions& options) {
   const LogColumnsConfig columns = options.columns.empty() ? LogColumnsConfig{} : read_log_columns(options.columns);
   std::vector<RecordedFlight> flights;
-  for (const std::filesystem::path& log : options.logs) flights.push_back(read_recorded_flight(log, columns, vehicle));
+  for (const std::filesystem::path& log : options.logs) {
+    flights.push_back(read_recorded_flight(log, columns, vehicle));
+    if (!flights.back().takes_positions_for_commands) continue;
+    warn(
+        fmt::format("{} is a table of Hedgehop, whose controls are positions that servos or motors have reached; they "
+                    "count as commands; --columns MAP.yaml with inputs: control_positions replays them",
+                    log.string()));
+  }
   const LogShare share = options.part == "first"    ? LogShare::first
                          : options.part == "second" ? LogShare::second
                                                     : LogShare::all;
   std::vector<double> horizons_s = options.horizons_s;
   std::ranges::sort(horizons_s);
-  return compare_logs(vehicle, flights,
-                      {.horizons_s = horizons_s, .every_s = options.every_s, .share = share, .split = options.split});
+  LogComparison comparison = compare_logs(
+      vehicle, flights, {.horizons_s = horizons_s, .every_s = options.every_s, .share = share, .split = options.split});
+  for (const double horizon_s : horizons_s) {
+    if (std::ranges::find(comparison.rows, horizon_s, &HorizonErrors::horizon_s) != comparison.rows.end()) continue;
+    warn(fmt::format("no window of {} s fits into the logs without a pause", horizon_s));
+  }
+  return comparison;
 }
 
 }  // namespace

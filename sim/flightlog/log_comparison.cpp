@@ -105,13 +105,24 @@ LogPart part_of(const RecordedFlight& flight, LogShare share, double split) {
   return {&flight, 0, flight.size()};
 }
 
+void require_samples_within(const RecordedFlight& flight, double horizon_s) {
+  constexpr double kMaxPeriods = 1.5;  // a window has a whole number of periods
+  if (flight.period_s <= kMaxPeriods * horizon_s) return;
+  throw InputError(
+      fmt::format("{}: a sample every {:.4g} s, but the horizon is {} s; choose a longer --horizon, or, if t_s is in "
+                  "ms, map it with scale: 0.001 (--columns)",
+                  flight.file, flight.period_s, horizon_s));
+}
+
 LogComparison compare_logs(const dynamics::VehicleConfig& vehicle, std::span<const RecordedFlight> flights,
                            const ComparisonPlan& plan) {
   constexpr std::array<LogShare, 2> kHalves = {LogShare::first, LogShare::second};
   require_equal_inputs(flights);
+  for (const RecordedFlight& flight : flights) require_samples_within(flight, plan.horizons_s.front());
   Replay replay(vehicle);
   std::vector<Sums> sums(plan.horizons_s.size());
   LogComparison out;
+  out.inputs = flights.front().kind;
   out.has_position = std::ranges::all_of(flights, &RecordedFlight::has_position);
   const bool forces =
       std::ranges::all_of(flights, [](const RecordedFlight& flight) { return !flight.specific_force_B.empty(); });

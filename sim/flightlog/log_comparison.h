@@ -30,6 +30,7 @@ struct HorizonErrors {
 };
 
 struct LogComparison {
+  LogColumnsConfig::Inputs inputs = LogColumnsConfig::Inputs::motor_speeds;
   std::vector<HorizonErrors> rows;
   bool has_position = false;
   std::optional<double> force_rmse_n;  ///< at the measured states, norm of the vector error; if the logs have the force
@@ -38,6 +39,9 @@ struct LogComparison {
 
 /// Returns the part of a log. @param split  share of the time of the log that is its first part, 0 to 1.
 LogPart part_of(const RecordedFlight& flight, LogShare share, double split);
+
+/// Throws InputError if a log has no two samples within a horizon, as with times in ms.
+void require_samples_within(const RecordedFlight& flight, double horizon_s);
 
 /// Compares a vehicle with logs of its flights. A window lies in one part of its log. The linear model of a window is
 /// fitted to the other part of all logs.

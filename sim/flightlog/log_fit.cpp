@@ -73,6 +73,7 @@ class LogResiduals {
     MeanSquares held;
     for (size_t f = 0; f < flights_.size(); ++f) {
       const RecordedFlight& flight = flights_[f];
+      require_samples_within(flight, plan_.horizon_s);
       const LogPart part = part_of(flight, LogShare::first, plan_.split);
       const auto count = static_cast<size_t>(std::max(2.0, std::round(plan_.horizon_s / flight.period_s)));
       const auto every = static_cast<size_t>(std::max(1.0, std::round(plan_.every_s / flight.period_s)));

@@ -15,6 +15,7 @@
 
 #include "sim/config/input_error.h"
 #include "sim/fields/order_statistics.h"
+#include "sim/fields/quantities.h"
 #include "sim/record/table.h"
 
 namespace hedgehop::sim {
@@ -148,6 +149,37 @@ void reverse_inputs(Eigen::MatrixXd& inputs, const Names& names) {
   }
 }
 
+/// Refuses an angle that only a column in degrees can have. @param valid  text of the limit.
+void require_radians(const Quantities& log, std::string_view name, double angle_rad, size_t row, double limit_rad,
+                     std::string_view valid) {
+  if (std::abs(angle_rad) <= limit_rad) return;
+  throw InputError(
+      fmt::format("{}: {} is {:.4g} rad in row {}; valid: -{} to {}; if the column is in degrees, map it with scale: "
+                  "0.0174533 (--columns)",
+                  log.file(), name, angle_rad, row + 1, valid, valid));
+}
+
+/// Refuses rates in degrees per second, which are 57 times those of the attitude.
+void require_rates_in_radians(const RecordedFlight& flight) {
+  constexpr double kCorrelation = 0.5, kFactor = 2.0;  // noise alone gives large rates too, without correlation
+  double products = 0.0, rates2 = 0.0, turns2 = 0.0;
+  for (size_t i = 0; i + 1 < flight.size(); ++i) {
+    if (flight.gap_after[i]) continue;
+    const Eigen::AngleAxisd turn(flight.states[i].q_WB.conjugate() * flight.states[i + 1].q_WB);
+    const Eigen::Vector3d turn_radps = turn.angle() * turn.axis() / (flight.t_s[i + 1] - flight.t_s[i]);
+    const Eigen::Vector3d& rate = flight.states[i].w_WB_B;
+    products += rate.dot(turn_radps);
+    rates2 += rate.squaredNorm();
+    turns2 += turn_radps.squaredNorm();
+  }
+  const double factor = rates2 / (products * kDegPerRad);
+  if (products < kCorrelation * std::sqrt(rates2 * turns2) || !(factor > 1.0 / kFactor && factor < kFactor)) return;
+  throw InputError(
+      fmt::format("{}: {} are about 57 times the rates of the attitude; if the columns are in deg/s, map them with "
+                  "scale: 0.0174533 (--columns)",
+                  flight.file, fmt::join(kRates, ", ")));
+}
+
 void read_inputs(RecordedFlight& flight, const Quantities& log, const LogColumnsConfig& config,
                  const dynamics::VehicleConfig& vehicle) {
   const auto kinds = input_columns(vehicle);
@@ -165,6 +197,10 @@ void read_inputs(RecordedFlight& flight, const Quantities& log, const LogColumns
       const std::vector<double> values = log.values(names[k]);
       flight.inputs.col(static_cast<Eigen::Index>(k)) =
           Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+      if (kind != Inputs::controls || rotors(vehicle) > 0) continue;
+      for (size_t i = 0; i < values.size(); ++i) {
+        require_radians(log, names[k], values[i], i, 0.5 * std::numbers::pi, "pi / 2");  // of blades
+      }
     }
     if (config.axes == LogColumnsConfig::Axes::flu) reverse_inputs(flight.inputs, names);
     if (kind == Inputs::pwm) apply_duty(flight.inputs, config.pwm, log);
@@ -227,12 +263,7 @@ RecordedFlight read_recorded_flight(const std::filesystem::path& file, const Log
     const std::vector<Eigen::Vector3d> rpy = vectors(kAngles);
     for (size_t i = 0; i < n; ++i) {
       const Eigen::Index larger = std::abs(rpy[i].x()) > std::abs(rpy[i].y()) ? 0 : 1;
-      if (const double angle_rad = rpy[i][larger]; std::abs(angle_rad) > 2.0 * std::numbers::pi) {
-        throw InputError(fmt::format(
-            "{}: {} is {:.4g} rad in row {}; valid: -2 pi to 2 pi; if the column is in degrees, map it with scale: "
-            "0.0174533 (--columns)",
-            log.file(), kAngles[static_cast<size_t>(larger)], angle_rad, i + 1));
-      }
+      require_radians(log, kAngles[static_cast<size_t>(larger)], rpy[i][larger], i, 2.0 * std::numbers::pi, "2 pi");
       flight.states[i].q_WB = dynamics::from_roll_pitch_heading(rpy[i].x(), rpy[i].y(), rpy[i].z());
     }
   }
@@ -246,9 +277,11 @@ RecordedFlight read_recorded_flight(const std::filesystem::path& file, const Log
     state.v_WB_B = in_body ? v[i] : Eigen::Vector3d(state.q_WB.conjugate() * v[i]);
     state.w_WB_B = w[i];
   }
+  require_rates_in_radians(flight);
   if (log.has(kForce)) flight.specific_force_B = vectors(kForce);
   flight.wind_W = log.has(kWind) ? vectors(kWind) : std::vector<Eigen::Vector3d>(n, Eigen::Vector3d::Zero());
   read_inputs(flight, log, config, vehicle);
+  flight.takes_positions_for_commands = !config.inputs && flight.kind == Inputs::controls && log.has({"model_valid"});
   return flight;
 }
 

@@ -22,6 +22,8 @@ struct RecordedFlight {
   /// Speed of each rotor, rad/s, commanded or measured; or the Controls; or velocity north, east (m/s), altitude (m),
   /// heading (rad).
   Eigen::MatrixXd inputs;
+  /// The log is a trajectory.csv, whose controls are positions, but no column map has the kind of its inputs.
+  bool takes_positions_for_commands = false;
   std::vector<Eigen::Vector3d> wind_W;                      ///< m/s
   std::vector<Eigen::Vector3d> specific_force_B;            ///< m/s2, at the mass center; empty if not recorded
   double warm_up_s = 0.0;                                   ///< see LogColumnsConfig
