@@ -34,7 +34,10 @@ void check(const SensorRecord& record) {
   for (const RecordedCamera& camera : record.cameras) {
     const bool distorted = std::ranges::any_of(camera.lens.distortion, [](double k) { return k != 0.0; });
     if (camera.lens.model != Intrinsics::Model::pinhole || distorted) {
-      throw InputError(fmt::format("camera '{}': the KITTI format supports undistorted pinholes only", camera.role));
+      throw InputError(
+          fmt::format("camera '{}': the KITTI format supports undistorted pinholes only; state fov, or focal_x, "
+                      "focal_y, center_u and center_v, without distortion and calibration",
+                      camera.role));
     }
     if (camera.rate_hz != record.cameras.front().rate_hz) {
       throw InputError(

@@ -30,12 +30,36 @@ bool states_size(const CameraConfig& camera, const CameraConfig& calibrated) {
          is_stated(camera.height_px, fresh.height_px, calibrated.center_v_px.value_or(0.0));
 }
 
+/// Refuses a focal length or a principal point that are not in pixels, and a size with exchanged sides.
+void require_pixels(const CameraConfig& calibrated) {
+  constexpr double kMinFocal = 0.04, kFar = 0.5,
+                   kNear = 0.1;  // of the width; of the size beyond the image; of the size
+  if (calibrated.width_px == 0 || !calibrated.focal_x_px) return;
+  const double w = calibrated.width_px, h = calibrated.height_px, u = calibrated.center_u_px.value_or(0.5 * w),
+               v = calibrated.center_v_px.value_or(0.5 * h);
+  require(*calibrated.focal_x_px > kMinFocal * w, "calibration",
+          fmt::format("a focal length of {:g} px with {:g} columns; valid: above {:g} px", *calibrated.focal_x_px, w,
+                      kMinFocal * w));
+  require(
+      std::abs(u / w - 0.5) < 0.5 + kFar && std::abs(v / h - 0.5) < 0.5 + kFar, "calibration",
+      fmt::format("the principal point ({:g}, {:g}) px is far outside the image of {:g} x {:g} pixels", u, v, w, h));
+  const auto is_middle = [&](double width, double height) {
+    return std::abs(u / width - 0.5) < kNear && std::abs(v / height - 0.5) < kNear;
+  };
+  require(
+      is_middle(w, h) || !is_middle(h, w), "calibration",
+      fmt::format("the principal point ({:g}, {:g}) px is the middle of {:g} x {:g} pixels, not of the stated {:g} x "
+                  "{:g}",
+                  u, v, h, w, w, h));
+}
+
 /// Gives the lens, the size and, unless the camera states its own, the pose of a calibration to a camera.
 void apply(const CameraConfig& calibrated, CameraConfig& camera) {
   const CameraConfig fresh;
   require(!camera.focal_x_px && !camera.focal_y_px && !camera.center_u_px && !camera.center_v_px &&
               camera.distortion.empty() && !camera.xi && !camera.alpha && camera.fov_rad == fresh.fov_rad,
           "calibration", "defines the lens; remove the other keys of the lens");
+  require_pixels(calibrated);
   require(calibrated.width_px > 0 || states_size(camera, calibrated), "calibration",
           "the file has no image size; state width and height");
   require(camera.model_kind == fresh.model_kind || camera.model_kind == calibrated.model_kind, "model",
@@ -135,6 +159,27 @@ void below(const std::string& path, const Action& action) {
   }
 }
 
+/// Whether images of a camera have the default size and lens.
+bool has_default_lens(const CameraConfig& c) {
+  const CameraConfig fresh;
+  const bool has_images = c.channel == CameraConfig::Channel::grey || c.channel == CameraConfig::Channel::color;
+  return has_images && !c.focal_x_px && c.distortion.empty() && c.fov_rad == fresh.fov_rad &&
+         c.width_px == fresh.width_px && c.height_px == fresh.height_px && c.model_kind == fresh.model_kind;
+}
+
+/// Refuses listed cameras without a lens that no entry has, if there are entries that no listed camera has.
+/// @param is_known  per listed camera: an entry has its name.
+void require_entries(const RigConfig& rig, const std::vector<bool>& is_known) {
+  std::vector<std::string> unlisted;
+  for (size_t i = is_known.size(); i < rig.cameras.size(); ++i) unlisted.push_back(rig.cameras[i].role);
+  for (size_t i = 0; i < is_known.size() && !unlisted.empty(); ++i) {
+    require(is_known[i] || !has_default_lens(rig.cameras[i]), fmt::format("cameras.{}", i),
+            fmt::format("'{}' has no lens and is not in the calibration; its cameras that the rig does not list: {}; "
+                        "use such a name, or state 'calibration' in the camera",
+                        rig.cameras[i].role, fmt::join(unlisted, ", ")));
+  }
+}
+
 /// Applies the rig's file; a pose that refers to the camera before becomes one in B. @param p_BI_m  as mount_rig()'s.
 void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
   if (rig.calibration.empty()) return;
@@ -153,6 +198,7 @@ void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
     }
   };
   std::optional<size_t> before;  // the camera of the entry before
+  std::vector<bool> is_known(listed);
   for (const CalibratedCamera& entry : read_calibration(text_of(rig.calibration), rig.calibration)) {
     const auto is_this = [&](const CameraConfig& c) {
       return c.role == entry.role || (c.role == entry.name && !entry.name.empty());
@@ -163,6 +209,7 @@ void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
       if (entry.rate_hz) camera->rate_hz = *entry.rate_hz;
     }
     const auto i = static_cast<size_t>(camera - rig.cameras.begin());
+    if (i < listed) is_known[i] = true;
     const bool states_pose = i < listed && (has_mounting(*camera) || has_matrix(*camera));
     with(i, i < listed, [&] { apply(entry.config, *camera); });
     camera->p_BI_m = p_BI_m;
@@ -175,6 +222,7 @@ void apply_rig_calibration(RigConfig& rig, const Eigen::Vector3d& p_BI_m) {
     });
     before = i;
   }
+  require_entries(rig, is_known);
   rig.read_calibrations.push_back(std::exchange(rig.calibration, {}));
 }
 

@@ -1,8 +1,10 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "sim/config/config_tree.h"
+#include "sim/config/input_error.h"
 #include "sim/export/formats.h"
 
 namespace hedgehop::sim {
@@ -27,6 +29,12 @@ TEST(EurocFiles, AnyRoleIsTheCommentOfItsSensor) {
     }
     EXPECT_EQ(found, 1);
   }
+}
+
+TEST(KittiFiles, ADistortedLensIsRefusedWithARemedy) {
+  SensorRecord record;
+  record.cameras.emplace_back().lens.distortion = {0.1, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_THAT([&] { kitti_files(record); }, testing::ThrowsMessage<InputError>(testing::HasSubstr("state fov")));
 }
 
 }  // namespace

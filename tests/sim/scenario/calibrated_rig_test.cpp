@@ -91,6 +91,35 @@ TEST(CalibratedRig, CamerasOfARigTakeTheEntryOfTheirRole) {
   EXPECT_EQ(rig.cameras[1].width_px, 400);
 }
 
+TEST(CalibratedRig, ACameraWithoutALensThatTheFileNamesOtherwiseIsRefused) {
+  Folder folder;
+  Folder::write("chain.yaml", kFront);
+  const auto faults = [](const std::string& camera) {
+    return faults_of([&] { flown("{calibration: chain.yaml, cameras: [{role: left" + camera + "}]}"); });
+  };
+  EXPECT_THAT(faults(""),
+              ElementsAre(AllOf(HasSubstr("scenario.yaml:7:"), HasSubstr("'rig.cameras.0': 'left' has no lens"),
+                                HasSubstr("does not list: front;"))));
+  EXPECT_THAT(faults(", fov: 60"), ElementsAre());
+  EXPECT_THAT(faults(", calibration: chain.yaml"), ElementsAre());
+  EXPECT_THAT(faults(", channel: depth"), ElementsAre());
+}
+
+TEST(CalibratedRig, NumbersThatAreNotInPixelsAreRefused) {
+  Folder folder;
+  const auto faults = [](const std::string& intrinsics, const std::string& resolution) {
+    Folder::write("chain.yaml", fmt::format("cam0: {{camera_model: pinhole, intrinsics: [{}], resolution: [{}]}}\n",
+                                            intrinsics, resolution));
+    return faults_of([] { flown("{calibration: chain.yaml}"); });
+  };
+  EXPECT_THAT(faults("458, 457, 367, 248", "752, 480"), ElementsAre());
+  EXPECT_THAT(faults("0.458, 0.457, 0.367, 0.248", "752, 480"),
+              ElementsAre(HasSubstr("a focal length of 0.458 px with 752 columns")));
+  EXPECT_THAT(faults("458, 457, 36700, 24800", "752, 480"), ElementsAre(HasSubstr("far outside the image")));
+  EXPECT_THAT(faults("458, 457, 367, 248", "480, 752"),
+              ElementsAre(HasSubstr("is the middle of 752 x 480 pixels, not of the stated 480 x 752")));
+}
+
 /// A chain of two cameras 0.12 m apart, cam1 to the right of cam0.
 std::string chain_of_two(const std::string& first, const std::string& second) {
   const auto camera = [](int number, const std::string& role, const std::string& pose) {
