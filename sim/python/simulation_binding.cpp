@@ -228,6 +228,12 @@ void bind_simulation(py::module_& native) {
           },
           "role"_a, "channel"_a, "position"_a, "quaternion"_a, "t_s"_a = 0.0)
       .def(
+          "proximity_from",
+          [](PySimulation& s, const Eigen::Vector3d& position, const Eigen::Vector4d& quaternion, double t_s) {
+            return s.get().proximity_from(chosen_pose(position, quaternion, t_s));
+          },
+          "position"_a, "quaternion"_a, "t_s"_a = 0.0)
+      .def(
           "flow_between",
           [](PySimulation& s, const std::string& role, const std::pair<Eigen::Vector3d, Eigen::Vector4d>& from,
              const std::pair<Eigen::Vector3d, Eigen::Vector4d>& to, double from_s, double to_s) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
@@ -75,6 +76,11 @@ class Simulation::Impl {
     episode().tick(command);
     while (!episode().over() && !episode().decides()) episode().tick();
     return !episode().over();
+  }
+
+  Proximity proximity_from(const ChosenPose& pose) {
+    require_flight();
+    return environment_->collision.query(pose.X_WB, std::numeric_limits<double>::infinity(), pose.t_s);
   }
 
   void fly_to(double t_s) {
@@ -227,6 +233,11 @@ cv::Mat Simulation::image_from(std::string_view role, ImageChannel channel, cons
   if (channel == ImageChannel::flow) throw std::invalid_argument("optic flow needs two poses; use flow_between()");
   const Cameras::Instant at = instant_of(pose);
   return impl_->episode().cameras().image(impl_->camera(role), channel, at, at);
+}
+
+Proximity Simulation::proximity_from(const ChosenPose& pose) {
+  instant_of(pose);  // refuses a pose that is not finite
+  return impl_->proximity_from(pose);
 }
 
 cv::Mat Simulation::flow_between(std::string_view role, const ChosenPose& from, const ChosenPose& to) {

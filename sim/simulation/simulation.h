@@ -112,6 +112,8 @@ class Simulation {
   /// the flight. Throws InputError for a role that the rig lacks, std::invalid_argument for ImageChannel::flow, and for
   /// a pose that is not finite or a negative time.
   cv::Mat image_from(std::string_view role, ImageChannel channel, const ChosenPose& pose);
+  /// Returns the true clearances of the hull at a chosen pose, and whether it collides. Throws as image_from().
+  Proximity proximity_from(const ChosenPose& pose);
   /// Returns the true optic flow of a camera from one chosen pose to another, CV_32FC2, px. Throws as image_from().
   cv::Mat flow_between(std::string_view role, const ChosenPose& from, const ChosenPose& to);
 

@@ -146,8 +146,13 @@ class Simulation:
 
     def image_from(self, role: str, channel: str, position, quaternion, t_s: float = 0.0) -> np.ndarray:
         """Returns the image of a camera from a chosen pose of the body, at rest: north, east, down, m; w, x, y, z of the rotation
-        from the body to the world. `t_s` is the time of the moving objects. Does not change the flight."""
+        from the body to the world. `t_s` is the time of the moving objects; images of one time have the same noise. The pose
+        may be inside an obstacle (proximity_from()). Does not change the flight."""
         return self._native.image_from(role, channel, position, quaternion, t_s)
+
+    def proximity_from(self, position, quaternion, t_s: float = 0.0) -> _native.Proximity:
+        """Returns the true clearances of the vehicle at a chosen pose, as in image_from(), and whether it collides."""
+        return self._native.proximity_from(position, quaternion, t_s)
 
     def flow_between(self, role: str, start, end, start_s: float = 0.0, end_s: float = 0.0) -> np.ndarray:
         """Returns the true optic flow of a camera between two chosen poses, px. A pose is (position, quaternion), as in

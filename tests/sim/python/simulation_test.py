@@ -121,6 +121,19 @@ class Images(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "length 1"):
             sim.image_from("front", "grey", (0, 0, -10), (1, 1, 0, 0))
 
+    def test_a_chosen_pose_has_clearances_and_the_noise_of_its_time(self):
+        sim = hedgehop.Simulation(CITY, set={**SHORT, "rig.sensor": {"read_noise": 4, "full_well": 10000}})
+        p, q = sim.truth.p_WB_m, sim.truth.q_WB
+        for found, expected in ((sim.proximity_from(p, q), sim.proximity), (sim.proximity_from((p[0], p[1], 1.0), q), None)):
+            self.assertEqual(found.collided, expected is None)
+            if expected:
+                self.assertAlmostEqual(found.ground_clearance_m, expected.ground_clearance_m, 9)
+        first, again, later = (np.array(sim.image_from("front", "grey", p, q, t_s)) for t_s in (0.0, 0.0, 1.0))
+        np.testing.assert_array_equal(first, again)
+        self.assertGreater(np.mean(first != later), 0.5)
+        with self.assertRaisesRegex(ValueError, "finite"):
+            sim.proximity_from((0, 0, math.nan), q)
+
     def test_rays_are_those_of_a_pinhole(self):
         camera = city().cameras["front"]
         p, rays = camera.pinhole, camera.rays()
