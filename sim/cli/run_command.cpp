@@ -116,14 +116,29 @@ bool keeps(const RunOptions& options, const char* artifact, bool failed) {
   return failed && std::ranges::find(options.keep_if_failed, artifact) != options.keep_if_failed.end();
 }
 
-void print_verdict(const Scenario& scenario, const FlightResult& result, const std::filesystem::path& out,
-                   bool has_report) {
+/// Prints how often the module commanded the speed limit, to which faster commands are reduced.
+void print_speed_limit(const Scenario& scenario, const std::vector<DecisionRow>& decisions) {
+  constexpr double kRounding = 1e-9;
+  const double limit_mps = scenario.avionics.autopilot.speed_limit_mps;
+  const auto count = std::ranges::count_if(decisions, [&](const DecisionRow& row) {
+    return row.v_WB_W_cmd && row.v_WB_W_cmd->norm() >= (1.0 - kRounding) * limit_mps;
+  });
+  if (count == 0) return;
+  fmt::print(
+      "  at the speed limit in {} of {} decisions: avionics.autopilot.speed_limit is {:g} m/s; faster commands are "
+      "reduced to it\n",
+      count, decisions.size(), limit_mps);
+}
+
+void print_verdict(const Scenario& scenario, const Flight& flight, const std::filesystem::path& out, bool has_report) {
+  const FlightResult& result = flight.result;
   fmt::print("{}, seed {}: {} after {:.1f} s of flight\n", scenario.name, scenario.seed,
              shown_outcome(result.outcome, scenario.goal.has_value()), result.flight_time_s);
   if (!result.cause.empty()) fmt::print("  cause: {}\n", result.cause);
   fmt::print("  path {:.1f} m, mean speed {:.2f} m/s", result.path_length_m, result.mean_speed_mps);
   if (result.goal_distance_m) fmt::print(", {:.1f} m from the goal", *result.goal_distance_m);
   fmt::print("\n");
+  print_speed_limit(scenario, flight.decisions);
   if (std::isfinite(result.closest_obstacle.distance_m)) {
     fmt::print("  nearest obstacle: {:.2f} m to {} at {:.1f} s\n", result.closest_obstacle.distance_m,
                result.closest_obstacle.what, result.closest_obstacle.t_s);
@@ -232,7 +247,7 @@ int run(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}\n", result_json(info, flight.result));
   } else {
-    print_verdict(scenario, flight.result, out, has_report);
+    print_verdict(scenario, flight, out, has_report);
   }
   return holds(verdict_of(flight.result)) ? 0 : 1;
 }
