@@ -1,6 +1,7 @@
 #include "scenes/mesh/mesh_import.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -60,6 +61,22 @@ void list_files(const std::filesystem::path& mesh, std::set<std::filesystem::pat
   files.merge(model.files);
 }
 
+// Returns the size of a scene's meshes from the one with the index `first` on; "" without such meshes.
+std::string size_words(const Scene& scene, size_t first) {
+  constexpr double kMinM = 0.01, kMaxM = 1000.0;
+  Eigen::AlignedBox3f box_W;
+  for (size_t i = first; i < scene.meshes.size(); ++i) {
+    for (const Vertex& vertex : scene.meshes[i].vertices) box_W.extend(vertex.p_W);
+  }
+  if (box_W.isEmpty()) return "";
+  const Eigen::Vector3d size_m = (1e3 * box_W.sizes().cast<double>()).array().round() / 1e3;
+  char text[120];
+  std::snprintf(text, sizeof text, "%.7g x %.7g x %.7g m (north, east, up)", size_m.x(), size_m.y(), size_m.z());
+  const double longest_m = size_m.maxCoeff();
+  if (longest_m >= kMinM && longest_m <= kMaxM) return text;
+  return std::string(text) + (longest_m > kMaxM ? ", over 1 km" : ", below 1 cm") + "; check its 'scale'";
+}
+
 }  // namespace
 
 std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, const Eigen::Vector3d& origin_ENU,
@@ -68,15 +85,17 @@ std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, c
   for (size_t k = 0; k < imports.size(); ++k) {
     const ImportConfig& import = imports[k];
     fields::require_bounds(import, "imports." + std::to_string(k));
-    std::string line;
+    const size_t first = scene.meshes.size();
+    std::string remarks;
     try {
-      line = add_mesh(import, import.origin_ENU.value_or(origin_ENU / import.scale), scene);
+      remarks = add_mesh(import, import.origin_ENU.value_or(origin_ENU / import.scale), scene);
     } catch (const std::exception& fault) {
       throw fields::InvalidField("imports." + std::to_string(k) + ".file", "'" + import.file + "': " + fault.what());
     }
-    if (line.empty()) continue;
-    line.insert(0, "'" + import.file + "': ");
-    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(std::move(line));
+    for (const std::string& words : {size_words(scene, first), remarks}) {
+      std::string line = "'" + import.file + "': " + words;
+      if (!words.empty() && std::ranges::find(lines, line) == lines.end()) lines.push_back(std::move(line));
+    }
   }
   return lines;
 }

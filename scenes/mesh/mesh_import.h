@@ -61,7 +61,8 @@ void describe(Visitor& v, fields::ConfigOf<ImportConfig> auto& c) {
 /// is `none`, one solid of shape `surface` per part of the file. Textures are resized to the size of the scene's
 /// textures. The visual shapes of SDFormat are drawn, and its collision shapes are solids.
 /// @param origin_ENU  of the imports without an origin, m.
-/// @return one line for each file with features that are not rendered, or images that are reduced.
+/// @return one line for each file with its size, and one with features that are not rendered or images that are
+/// reduced.
 /// @throws std::invalid_argument that begins with the faulty key; for a file it states the reason: missing, unreadable,
 /// without triangles, or an image missing.
 std::vector<std::string> add_imports(const std::vector<ImportConfig>& imports, const Eigen::Vector3d& origin_ENU,

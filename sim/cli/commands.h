@@ -278,7 +278,7 @@ void print_black_pixels(const RigConfig& rig);
 /// Warns that the replay of a run has no images of cameras. @param fault  of write_replay(); empty: no warning.
 void warn_of_replay(const std::filesystem::path& folder, const std::string& fault);
 
-/// Prints one line for each imported mesh with features that are not rendered, or images that are reduced.
+/// Prints the remarks on the files of a scene, such as the size of each imported mesh.
 void print_import_limits(const FlightParts& parts);
 
 /// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the

@@ -24,10 +24,11 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-/// The valid content of a file, in words, and the files that it reads.
+/// The valid content of a file, in words, the files that it reads, and remarks on the files of its scenes.
 struct ValidFile {
   std::string words;
   std::set<std::filesystem::path> used;
+  std::set<std::string> remarks = {};
 };
 
 enum class FileKind { plan, paper, search, sweep, flights };
@@ -59,11 +60,12 @@ ValidFile read_plan(const std::filesystem::path& file, const std::vector<std::st
   return valid;
 }
 
-/// Places the vehicle of a flight: some errors show only in the assembled parts.
-void assemble(const Order& order) {
+/// Places the vehicle of a flight: some errors show only in the assembled parts. Adds the remarks on its scene's files.
+void assemble(const Order& order, std::set<std::string>& remarks) {
   try {
     LoadedScenario loaded = load_flight(order.scenario, order.overrides, order.seed);
     loaded.scenario.link.reset();
+    remarks.insert(loaded.parts.files.remarks.begin(), loaded.parts.files.remarks.end());
     Simulation(std::move(loaded));
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", order.scenario.string(), error.what()));
@@ -80,7 +82,7 @@ ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<s
   std::map<std::string, size_t> groups;
   for (const Order& order : batch.orders) {
     if (++groups[order.group] > 1) continue;
-    assemble(order);
+    assemble(order, valid.remarks);
     for (const auto& [input, hash] : order.inputs) {
       std::error_code error;
       valid.used.insert(std::filesystem::weakly_canonical(order.scenario.parent_path() / input, error));
@@ -144,6 +146,7 @@ class Validator {
       const ValidFile found = read_valid(file, options_.overrides);
       used_.insert(found.used.begin(), found.used.end());
       fmt::print("valid    {}: {}\n", file.string(), found.words);
+      for (const std::string& line : found.remarks) notice(line + "\n");
       ++valid_;
     } catch (const InputError& error) {
       fmt::print("invalid  {}\n", file.string());

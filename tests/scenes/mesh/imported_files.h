@@ -31,12 +31,17 @@ class ImportedFiles : public testing::Test {
     Scene scene;
     scene.textures = std::vector<cv::Mat>{cv::Mat(kSizePx, kSizePx, CV_8UC3, cv::Scalar(0, 0, 0))};
     lines_ = add_imports({config}, Eigen::Vector3d::Zero(), scene);
+    if (!scene.meshes.empty()) {
+      size_line_ = lines_.at(0);
+      lines_.erase(lines_.begin());
+    }
     return scene;
   }
 
   const sim::TemporaryFolder temporary_;
   const std::filesystem::path& folder_ = temporary_.path();
-  std::vector<std::string> lines_;  ///< of the last import
+  std::string size_line_;           ///< of the last import
+  std::vector<std::string> lines_;  ///< of the last import, without its size
 };
 
 inline const cv::Vec3b kRed(200, 0, 0), kBlue(0, 0, 200);  ///< of test images

@@ -63,6 +63,16 @@ TEST_F(MeshImport, PlacesAQuadAtItsPositionAndHeading) {
   EXPECT_EQ(scene.solids[0].polyhedron.faces.size(), 2u);
 }
 
+TEST_F(MeshImport, ReportsItsSizeAndDoubtsTheScale) {
+  const std::string file = write("flat.obj", "v 0 0 0\nv 4 0 0\nv 0 3 0\nf 1 2 3\n");
+  imported({.file = file});
+  EXPECT_EQ(size_line_, "'" + file + "': 0 x 4 x 3 m (north, east, up)");
+  imported({.file = file, .scale = 1000.0});
+  EXPECT_THAT(size_line_, ::testing::EndsWith("0 x 4000 x 3000 m (north, east, up), over 1 km; check its 'scale'"));
+  imported({.file = file, .scale = 1e-3});
+  EXPECT_THAT(size_line_, ::testing::EndsWith("0 x 0.004 x 0.003 m (north, east, up), below 1 cm; check its 'scale'"));
+}
+
 // Returns whether the normals of all triangles agree with their winding, and how many triangles face a point.
 std::pair<bool, int> seen_from(const Mesh& mesh, const Eigen::Vector3f& eye_W) {
   bool agree = true;

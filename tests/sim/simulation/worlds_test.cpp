@@ -59,7 +59,8 @@ TEST(Imports, AreReadOnceForTheValidationAndTheFlight) {
       "scene.imports=[{file: '" + file.string() + "', name: sheet, north: 50, altitude: 20}]", "scene.texture_size=64",
       "drawing.renderer=tiles"};
   LoadedScenario loaded = load_flight(HEDGEHOP_SOURCE_DIR "/configs/worlds/tree.yaml", overrides);
-  EXPECT_EQ(loaded.parts.files.remarks, std::vector{"'" + file.string() + "': not rendered: points and lines"});
+  EXPECT_EQ(loaded.parts.files.remarks, (std::vector{"'" + file.string() + "': 0 x 1 x 1 m (north, east, up)",
+                                                     "'" + file.string() + "': not rendered: points and lines"}));
   std::filesystem::remove(file);
   const Simulation simulation(std::move(loaded));
   const scenes::Scene& scene = simulation.scene();
