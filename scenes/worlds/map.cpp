@@ -134,6 +134,20 @@ std::string summary(const MapConfig& config, const std::vector<map::MapBuilding>
   return line;
 }
 
+/// Throws std::invalid_argument: every object is outside the radius, for example because the origin is of another
+/// place.
+[[noreturn]] void refuse_origin(const MapConfig& config, const map::OsmObjects& objects) {
+  const map::GeoPoint place = !objects.buildings.empty()   ? objects.buildings[0].polygons[0].outer[0]
+                              : !objects.streets.empty()   ? objects.streets[0].points[0]
+                              : !objects.tree_rows.empty() ? objects.tree_rows[0].points[0]
+                                                           : objects.trees.at(0).place;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ": all objects are outside scene.radius; the first is at latitude %.6g, longitude %.7g",
+                place.latitude_deg, place.longitude_deg);
+  throw fields::InvalidField("origin", "'" + config.osm + "'" + text);
+}
+
 /// Reads the terrain within the radius, at most some distance beyond the objects, since a smaller area has more of the
 /// file's samples. @param extent_m  of the objects. @param[out] remarks  receives a line if the terrain has fewer
 /// samples than the file, or unusable ones.
@@ -182,6 +196,7 @@ MapContents read_map(const MapConfig& config, uint64_t seed) {
       near_buildings(objects, plane, {config.building_height_m, config.level_height_m}, near, faults);
   const std::vector<map::Street> streets = near_streets(objects, plane, near, faults);
   std::vector<map::MapTree> trees = near_trees(objects, plane, derived_seed(seed, kTownTreeStream), near, faults);
+  if (buildings.empty() && streets.empty() && trees.empty() && near.left_out() > 0) refuse_origin(config, objects);
   contents.remarks.push_back(summary(config, buildings, streets, trees.size(), near.left_out()));
   const map::Ground ground = ground_of(config, plane, near.extent_m(), contents.remarks);
   report_holes(streets, ground, faults);

@@ -11,6 +11,7 @@ import sys
 import unittest
 
 from map_case import HAS_MAPS, HAS_TERRAIN, HAS_TOOLS, MapCase, village
+from map_file import LATITUDE, LONGITUDE
 
 BUILDING = {"building": "yes"}
 
@@ -107,6 +108,10 @@ class Objects(MapCase):
             file.node_at(*place, {"natural": "tree"})
         lines = self.expect(file, [])
         self.assertTrue(lines[0].endswith("1 trees; 5 objects outside scene.radius"), lines)
+
+    def test_an_origin_far_from_all_objects_is_refused(self):
+        scene = {"osm": self.written(village()), "origin": {"latitude": LONGITUDE, "longitude": LATITUDE}}
+        self.assertRegex(self.refusal(scene), rf"'scene.origin': .*all objects are outside scene.radius; the first is at latitude {LATITUDE:.4g}")
 
     def test_faults_of_objects_far_away_are_not_reported(self):
         def add_faults(file, north):
