@@ -29,10 +29,12 @@ Json still_data(const Scenario& scenario, const scenes::Scene& scene, double end
   data["surfaces"] = replay_surfaces(scene, scenario.drawing.shadows);
   data["cameras"] = replay_cameras(scenario.rig);
   data["hull"] = replay_hull(dynamics::hull(scenario.vehicle));
-  data["goal"] = nullptr;
-  if (const auto& goal = scenario.goal) {
-    data["goal"] = {milli(goal->north_m), milli(goal->east_m), milli(-goal->altitude_m), milli(goal->radius_m)};
-  }
+  const auto mark = [](const GoalConfig& goal) -> Json {
+    return {milli(goal.north_m), milli(goal.east_m), milli(-goal.altitude_m), milli(goal.radius_m)};
+  };
+  data["route"] = Json::array();
+  for (const GoalConfig& waypoint : scenario.route) data["route"].push_back(mark(waypoint));
+  data["goal"] = scenario.goal ? mark(*scenario.goal) : Json(nullptr);
   return data;
 }
 

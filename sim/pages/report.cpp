@@ -49,6 +49,10 @@ Json panel_json(const Panel& panel, size_t max_points) {
   return json;
 }
 
+Json goal_json(const PlanGoal& goal) {
+  return {{"n", milli(goal.p_NE_m.x())}, {"e", milli(goal.p_NE_m.y())}, {"radius", milli(goal.radius_m)}};
+}
+
 Json plan_json(const ReportScenario& scenario, const Values& down_m) {
   double lowest_m = 0.0, highest_m = 0.0;
   if (!down_m.empty()) {
@@ -57,12 +61,9 @@ Json plan_json(const ReportScenario& scenario, const Values& down_m) {
     highest_m = -least;
   }
   Json json = plan_data(scenario.plan, lowest_m, highest_m);
-  json["goal"] = nullptr;
-  if (scenario.goal) {
-    json["goal"] = {{"n", milli(scenario.goal->p_NE_m.x())},
-                    {"e", milli(scenario.goal->p_NE_m.y())},
-                    {"radius", milli(scenario.goal->radius_m)}};
-  }
+  json["route"] = Json::array();
+  for (const PlanGoal& waypoint : scenario.route) json["route"].push_back(goal_json(waypoint));
+  json["goal"] = scenario.goal ? goal_json(*scenario.goal) : Json(nullptr);
   return json;
 }
 
@@ -149,9 +150,9 @@ ReportScenario describe_scenario(const RunRecord& run) {
                         .vehicle = chosen(scenario.vehicle),
                         .yaml = run.scenario_yaml,
                         .plan = scene_plan(*run.scene)};
-  if (scenario.goal) {
-    result.goal = PlanGoal{{scenario.goal->north_m, scenario.goal->east_m}, scenario.goal->radius_m};
-  }
+  const auto on_plan = [](const GoalConfig& goal) { return PlanGoal{{goal.north_m, goal.east_m}, goal.radius_m}; };
+  std::ranges::transform(scenario.route, std::back_inserter(result.route), on_plan);
+  if (scenario.goal) result.goal = on_plan(*scenario.goal);
   return result;
 }
 

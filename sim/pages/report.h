@@ -13,7 +13,7 @@
 
 namespace hedgehop::sim {
 
-/// A goal on the plan.
+/// A goal or a waypoint on the plan.
 struct PlanGoal {
   Eigen::Vector2d p_NE_m = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
@@ -24,6 +24,7 @@ struct ReportScenario {
   std::string description, module, scene, vehicle;  ///< names of the selected parts
   std::string yaml;                                 ///< the resolved scenario
   ScenePlan plan;
+  std::vector<PlanGoal> route;  ///< waypoints before the goal
   std::optional<PlanGoal> goal;
 };
 

@@ -227,6 +227,20 @@ TEST(Report, DrawsTheSceneThatWasFlown) {
   EXPECT_EQ(data.at("scenario_yaml"), to_yaml(scenario));
 }
 
+TEST(Report, AndReplayShowTheWaypointsOfTheRoute) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> overrides = {"route=[{north: 40, east: 5, altitude: 15, radius: 3}]",
+                                              "drawing.renderer=tiles"};
+  const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml", overrides);
+  const RunInfo info{.scenario = "route", .seed = 9, .scenario_yaml = to_yaml(scenario)};
+  write_result_files(folder.path(), info, fake_flight(2.0, 1));
+  write_report(folder.path(), read_run(folder.path()));
+  write_replay(folder.path(), read_run(folder.path()));
+  const auto data = [&](const char* page) { return data_of(read_file_whole(folder.path() / page)); };
+  EXPECT_EQ(data("report.html").at("plan").at("route"), nlohmann::json::parse(R"([{"n": 40, "e": 5, "radius": 3}])"));
+  EXPECT_EQ(data("replay.html").at("route"), nlohmann::json::parse("[[40, 5, -15, 3]]"));
+}
+
 TEST(Report, OfAFlightInMemoryEqualsThatFromItsFiles) {
   const TemporaryFolder folder;
   const Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");

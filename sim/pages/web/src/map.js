@@ -11,7 +11,7 @@ function placeText(north, east) {
 class MapView {
   /**
    * @param host  element to fill.
-   * @param plan  scene as in the pages' data: bounds, goal, footprints, movers.
+   * @param plan  scene as in the pages' data: bounds, goal, route (may be absent), footprints, movers.
    * @param reach  {n, e}: positions outside the scene that must be in view, m.
    * @param on  {draw(c, map) over the scene; key(host) fills the legend; hover(x, y), leave(), click()}: pixels of the map.
    */
@@ -34,10 +34,15 @@ class MapView {
     const pad = share * Math.max(n1 - n0, e1 - e0, 2);
     return {n: (n0 + n1) / 2, e: (e0 + e1) / 2, height: n1 - n0 + 2 * pad, width: e1 - e0 + 2 * pad};
   }
-  /** Returns the north and east bounds of the goal; empty without a goal. */
+  /** Returns the goal and the waypoints before it, each with its name. */
+  marks() {
+    const {goal, route = []} = this.plan;
+    return route.map((place, i) => [place, String(i + 1)]).concat(goal ? [[goal, 'goal']] : []);
+  }
+  /** Returns the north and east bounds of the goal and the waypoints; empty without a goal. */
   goalEnds() {
-    const {goal} = this.plan;
-    return goal ? [[goal.n - goal.radius, goal.n + goal.radius], [goal.e - goal.radius, goal.e + goal.radius]] : [[], []];
+    const ends = (axis) => this.marks().flatMap(([place]) => [place[axis] - place.radius, place[axis] + place.radius]);
+    return [ends('n'), ends('e')];
   }
   wholeView() {
     const {plan, reach} = this, [norths, easts] = this.goalEnds();
@@ -105,7 +110,7 @@ class MapView {
     c.clip();
     this.drawSolids(c);
     this.drawMovers(c);
-    if (this.plan.goal) this.drawGoal(c, this.plan.goal);
+    for (const [place, name] of this.marks()) this.drawGoal(c, place, name);
     this.on.draw(c, this);
     c.restore();
     c.strokeStyle = themeColor('line');
@@ -202,7 +207,7 @@ class MapView {
     }
   }
 
-  drawGoal(c, goal) {
+  drawGoal(c, goal, name = 'goal') {
     c.strokeStyle = themeColor('c2');
     c.lineWidth = 2;
     c.setLineDash([5, 3]);
@@ -211,7 +216,7 @@ class MapView {
     c.stroke();
     c.setLineDash([]);
     this.cross(c, this.x(goal.e), this.y(goal.n), 5, themeColor('c2'));
-    this.label(c, 'goal', this.x(goal.e), this.y(goal.n) - Math.max(goal.radius * this.scale, 6) - 8, themeColor('c2'));
+    this.label(c, name, this.x(goal.e), this.y(goal.n) - Math.max(goal.radius * this.scale, 6) - 8, themeColor('c2'));
   }
 
   dot(c, x, y, radius, color) {

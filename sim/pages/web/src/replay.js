@@ -20,7 +20,7 @@ const R_VW = new THREE.Matrix4().set(0, 1, 0, 0, 0, 0, -1, 0, -1, 0, 0, 0, 0, 0,
 function inV(north, east, down) { return new THREE.Vector3(north, east, down).applyMatrix4(R_VW); }
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const {scene: world, hull, path, goal, statuses} = data;
+const {scene: world, hull, path, route, goal, statuses} = data;
 let {result} = data;
 const element = (id) => document.getElementById(id);
 const state = {t_s: 0, playing: false, speed: 1, live: data.live, get camera() { return views.kind; }};
@@ -51,7 +51,7 @@ shade.visible = world.has_ground;
 craft.group.add(screens.group);
 craft.group.rotation.order = 'ZYX';  // yaw, then pitch, then roll, each about the new axis
 inW.add(floor.group, solids.group, line.line, craft.group, shade, ...movers, tags.group, map.group);
-if (goal) inW.add(goalMark(goal));
+for (const place of [...route, goal]) if (place) inW.add(goalMark(place));
 line.set(path);
 // A ceiling is cut away if it is between the viewer and the flight.
 const ceiling_m = Math.max(...solids.ceilings.map(([low, high]) => high[2]), -Infinity), cut = new THREE.Plane(new THREE.Vector3(0, -1, 0), -ceiling_m - 0.01);
