@@ -208,6 +208,22 @@ INSTANTIATE_TEST_SUITE_P(Measures, PathTolerance,
                          ::testing::Values(PathToleranceCheck::Measure::band, PathToleranceCheck::Measure::frechet,
                                            PathToleranceCheck::Measure::dtw));
 
+TEST(PathToleranceShape, ComparesAPolylineByHandAlongItsSegments) {
+  StraightFlight f;
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "corners.csv";
+  const auto& trajectory = f.flight.trajectory;
+  std::ofstream table(file);
+  table << "t_s,north_m,east_m,altitude_m\n";
+  for (const TrajectoryRow& row : {trajectory.front(), trajectory.back()}) {
+    table << row.t_s << ',' << row.p_WB_true.x() << ',' << row.p_WB_true.y() << ',' << -row.p_WB_true.z() << '\n';
+  }
+  table.close();
+  for (const auto measure : {PathToleranceCheck::Measure::frechet, PathToleranceCheck::Measure::dtw}) {
+    EXPECT_LT(f.evaluate(PathToleranceCheck{.reference = file, .at_most_m = 0.5, .measure = measure}).value, 0.1);
+  }
+}
+
 // A flight that stops early is on the path of the reference, but has not flown the rest.
 TEST(PathToleranceBand, FailsAFlightThatStopsAtTheHoverOfTheReference) {
   StraightFlight f;
