@@ -37,7 +37,7 @@ void describe(Visitor& v, fields::ConfigOf<LeaderboardModule> auto& c) {
   v("set", c.set,
     {.required = true,
      .meaning = "overrides of each world: vehicle, rig, avoidance; `use` relative to the world's file, modules in "
-                "shared libraries relative to this file"});
+                "shared libraries and Python files relative to this file"});
 }
 
 /// Worlds in which a module is not flown, with the reason.
@@ -136,8 +136,8 @@ void describe(Visitor& v, fields::ConfigOf<CampaignFlights> auto& c) {
     {.required = true, .meaning = "seeds such as 1001:1010 or 1001:1003,1007, disjoint from tuned_on"});
   v("tuned_on", c.tuned_on, {.meaning = "tuning seeds of this scenario, instead of the campaign's"});
   v("set", c.set,
-    {.meaning = "overrides of the scenario, each key.path=value; modules in shared libraries relative to this "
-                "file"});
+    {.meaning = "overrides of the scenario, each key.path=value; modules in shared libraries and Python files "
+                "relative to this file"});
 }
 
 /// A campaign file of `hedgehop batch`, which has the key `flights` or `leaderboard`.
