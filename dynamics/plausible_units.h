@@ -11,8 +11,8 @@ namespace hedgehop::dynamics {
 
 /// Throw fields::InvalidField if the blade tips would be faster than sound, if the inertia is that of a much larger
 /// body, if a rotor's inertia is more than that of the vehicle's mass at the blade tips, or if a chord or a hub's place
-/// is far beyond the rotor's radius. The message gives the value in the likely
-/// unit. Other values, also invalid ones, are accepted.
+/// is far beyond the rotor's radius. The message gives the value in the likely unit. Other values, also invalid ones,
+/// are accepted.
 void require_plausible_units(const helicopter::HelicopterConfig& config);
 void require_plausible_units(const multicopter::MulticopterConfig& config);
 

@@ -32,8 +32,8 @@ bool states_size(const CameraConfig& camera, const CameraConfig& calibrated) {
 
 /// Refuses a focal length or a principal point that are not in pixels, and a size with exchanged sides.
 void require_pixels(const CameraConfig& calibrated) {
-  constexpr double kMinFocal = 0.04, kFar = 0.5,
-                   kNear = 0.1;  // of the width; of the size beyond the image; of the size
+  constexpr double kMinFocal = 0.04;         // of the width
+  constexpr double kFar = 0.5, kNear = 0.1;  // of the size: beyond the image; from its middle
   if (calibrated.width_px == 0 || !calibrated.focal_x_px) return;
   const double w = calibrated.width_px, h = calibrated.height_px, u = calibrated.center_u_px.value_or(0.5 * w),
                v = calibrated.center_v_px.value_or(0.5 * h);
