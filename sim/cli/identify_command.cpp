@@ -150,8 +150,9 @@ int identify(const IdentifyOptions& options) {
         .notes = {fmt::format("Identified by cross spectra from sweeps of all controls, {} to {} rad/s in {} s, about "
                               "the trim at {} m/s, with weak feedback.",
                               options.from_radps, options.to_radps, options.duration_s, options.speed_mps),
-                  fmt::format("Mismatch of the linear model for {}: {:.1f}.",
-                              all.found.linear.states[static_cast<size_t>(all.output)], cost)},
+                  fmt::format(
+                      "Mismatch of the linear model for {}: {:.1f} (below 100: good; below 50: hardly noticeable).",
+                      all.found.linear.states[static_cast<size_t>(all.output)], cost)},
         .input = options.input,
         .input_unit = all.input.unit,
         .input_scale = all.input.scale,

@@ -156,7 +156,10 @@ std::string failure_words(const FlightRecord& record) {
   for (const CheckResult& check : result.checks) {
     if (check.passed) continue;
     const std::string failure = check.name + " " + check_words(check);
-    if (failure != result.cause) words += "; " + failure;
+    if (failure == result.cause) continue;
+    CheckResult figures = check;
+    figures.cause.clear();
+    words += "; " + check.name + " " + check_words(figures) + (check.cause.empty() ? "" : " (" + check.cause + ")");
   }
   return words;
 }

@@ -142,8 +142,8 @@ std::string missed_goal_words(const Scenario& scenario, const Flight& flight) {
   }
   const ClosestApproach& nearest = flight.last_obstacle;
   if (!std::isfinite(nearest.distance_m)) return words + fmt::format("; no obstacle within {:g} m", kMaxClearanceM);
-  return words + fmt::format("; nearest obstacle: {}, {:.1f} m", nearest.what.empty() ? "unnamed" : nearest.what,
-                             nearest.distance_m);
+  return words + fmt::format("; nearest obstacle at the end: {}, {:.1f} m",
+                             nearest.what.empty() ? "unnamed" : nearest.what, nearest.distance_m);
 }
 
 void explain(const Scenario& scenario, Flight& flight) {

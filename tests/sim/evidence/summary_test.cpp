@@ -21,5 +21,17 @@ TEST(Summary, StatesGroupsWithoutFlightsOrObstaclesInWords) {
   EXPECT_THAT(text, HasSubstr("| 0 | no obstacle | no obstacle | 2 |\n"));
 }
 
+TEST(FailureWords, KeepTheCauseOfACheckApartFromTheNextCheck) {
+  FlightRecord record{.status = FlightRecord::Status::flown};
+  FlightResult& flight = record.result.emplace().flight;
+  flight.outcome = Outcome::timeout;
+  flight.checks = {{.name = "reached_goal", .passed = false, .value = 9.0, .limit = 3.0, .unit = "m", .must = "<="},
+                   {.name = "min_clearance", .passed = false, .value = 0.4, .limit = 0.5, .unit = "m", .must = ">="}};
+  flight.checks[0].cause = "distance at the end; minimum 8.0 m at 14.0 s";
+  EXPECT_EQ(failure_words(record),
+            "timeout; reached_goal 9 m, must be <= 3 m (distance at the end; minimum 8.0 m at 14.0 s); "
+            "min_clearance 0.4 m, must be >= 0.5 m");
+}
+
 }  // namespace
 }  // namespace hedgehop::sim

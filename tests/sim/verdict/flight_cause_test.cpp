@@ -55,7 +55,7 @@ TEST(FlightCause, OfATimeoutNamesStatusCommandWayAndObstacle) {
   StuckFlight f;
   EXPECT_EQ(f.cause(),
             "in its last 25 s the module reported `look` and commanded 0 m/s; the flight covered 2.0 of 60 m; nearest "
-            "obstacle: tree 8, 3.1 m");
+            "obstacle at the end: tree 8, 3.1 m");
 }
 
 TEST(FlightCause, OfATimeoutHasSharesIfTheStatusAlternates) {
