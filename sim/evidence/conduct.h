@@ -41,7 +41,7 @@ void describe(Visitor& v, fields::ConfigOf<RegisteredRule> auto& c) {
 /// The tuning that preceded the flights.
 struct RegisteredTuning {
   std::string seeds;
-  int64_t settings_tried = 0;
+  std::optional<int64_t> settings_tried;
 };
 template <class Visitor>
 void describe(Visitor& v, fields::ConfigOf<RegisteredTuning> auto& c) {

@@ -112,6 +112,7 @@ std::string falsify_json(const FalsifySearch& search, const FalsifyResult& resul
             {"method", kMethods[static_cast<size_t>(search.config.design.method)]},
             {"seed", search.config.design.seed},
             {"budget", search.config.design.budget},
+            {"checks", search.config.robustness},  // empty: all
             {"unknowns", search.sweep.parameters.size()},
             {"flights", result.records.size()},
             {"flights_not_flown", std::ranges::count(result.records, Verdict::not_flown,

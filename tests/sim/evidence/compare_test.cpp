@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/sim/batch/campaign_folder.h"
+#include "tests/sim/pages/browser.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -35,6 +36,24 @@ TEST(Compare, ShowsOrRefutesThatTheCandidateIsBetter) {
       "compare tiny.yaml other.yaml --seeds 101:103 --until 'min_clearance_m: better' --range 3 --out equal");
   EXPECT_EQ(equal.status, 4) << equal.err;
   EXPECT_EQ(folder.json("equal/batch.json").at("sequential").at(0).at("mean_difference"), 0.0);
+}
+
+TEST(CompareInBrowser, NamesBaseAndCandidateAndDoesNotPoolTheirRates) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TwoSystems folder;
+  ASSERT_EQ(folder.hedgehop("compare other.yaml tiny.yaml --seeds 101:108 --until 'success: better' --out out").status,
+            0);
+  const PageVisit page = visit(folder.path() / "out/report.html", R"js(
+    const text = (selector) => document.querySelector(selector).textContent;
+    return [text('#claims-card'), text('#groups'), text('.tile')];)js");
+  EXPECT_THAT(page.errors, ::testing::IsEmpty());
+  const auto facts = page.value[0].get<std::string>(), groups = page.value[1].get<std::string>();
+  EXPECT_THAT(facts, HasSubstr("baseother: 0 of 5 passed, 95 % interval 0 % to"));
+  EXPECT_THAT(facts, HasSubstr("candidatetiny: 5 of 5 passed, 95 % interval"));
+  EXPECT_THAT(facts, ::testing::Not(HasSubstr("Success rate")));
+  EXPECT_LT(groups.find("base: other"), groups.find("candidate: tiny"));
+  EXPECT_THAT(groups, ::testing::Not(HasSubstr("all flights")));
+  EXPECT_EQ(page.value[2], "all checks hold5 of 5candidate; base: 0 of 5");
 }
 
 TEST(Compare, SameAnswerForAnyNumberOfWorkersAndResumed) {

@@ -61,6 +61,15 @@ TEST(Plan, IsFlownAsRegistered) {
   EXPECT_EQ(folder.json("out/batch.json").at("sequential").at(0).at("verdict"), "shown");
 }
 
+TEST(Plan, StatesNoNumberOfSettingsThatItDoesNotRegister) {
+  const PlanFolder folder;
+  std::string text = folder.read("plan.yaml");
+  const std::string settings = ", settings_tried: 14";
+  folder.write("plan.yaml", text.erase(text.find(settings), settings.size()));
+  ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);
+  EXPECT_TRUE(folder.json("out/batch.json").at("conduct").at("settings_tried").is_null());
+}
+
 TEST(Plan, AChangeAfterTheFlightsIsShownOnThePage) {
   const PlanFolder folder;
   ASSERT_EQ(folder.hedgehop("batch --plan plan.yaml --out out").status, 0);

@@ -101,6 +101,19 @@ TEST(CampaignInBrowser, ListsAllGroupsFailuresFirstAndCountsByTheFirstFailedChec
   EXPECT_EQ(page.value.at("outcomes"), nlohmann::json::array({"collided", "completed", "reached"}));
 }
 
+TEST(CampaignInBrowser, DistinguishesModulesNotFlownFromThoseWithoutChecks) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), made_up(4, 4));
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const seen = [], cell = (module, more) => ({module, world: 'park', ...more});
+    fillModuleTiles((...words) => seen.push(words), {modules: [{name: 'a'}, {name: 'b'}], totals: [],
+      cells: [cell('a', {reason: 'it has no goal'}), cell('b', {no_checks: true})]});
+    return seen;)js");
+  EXPECT_EQ(page.value, nlohmann::json::parse(R"([["a", "–", "not flown"], ["b", "–", "no flight with checks"]])"));
+}
+
 TEST(CampaignInBrowser, GivesNoVerdictWhileFlightsAreMissing) {
   HEDGEHOP_NEEDS_BROWSER();
   const TemporaryFolder folder;

@@ -56,8 +56,12 @@ function fillHead(host, data, table) {
   const percent = (share) => fixed(100 * share, 1) + ' %';
   if (data.leaderboard) return fillModuleTiles(tile, data.leaderboard);
   const completed = completedCount(table, null), timeout = all.timeout - completed;
-  const unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
-  if (data.search) tile('all checks hold', `${all.passed} of ${all.ended}`, 'flights of a search for failures; they give no success rate');
+  const pair = comparedPair(data), unchecked = all.no_checks ? `; no checks: ${all.no_checks}` : '';
+  if (data.search) {
+    const known = table.columns.get('robustness').values.filter((v) => v !== null);
+    tile(data.search.suite ? 'safe flights' : 'searched checks hold', `${known.filter((v) => v >= 0).length} of ${known.length}`, 'flights of a search for failures; they give no success rate');
+  }
+  else if (pair) tile('all checks hold', `${pair[1].passed} of ${pair[1].ended}`, `candidate; base: ${pair[0].passed} of ${pair[0].ended}`);
   else tile('all checks hold', all.ended ? percent(all.passed / all.ended) : all.no_checks ? 'no checks' : '–',
     `${all.passed} of ${all.ended}; 95 % interval ${percent(all.low)} to ${percent(all.high)}${unchecked}`);
   tile('collided', String(all.collided), `of ${countOf(all.flights, 'flight')}`);
@@ -80,15 +84,15 @@ function fillModuleTiles(tile, board) {
   for (const total of totals) {
     const {name, control, passed, flights, worlds, low, high} = total;
     const title = name + (control ? ' (control)' : '');
-    if (!flights) tile(title, '–', 'no flight with checks');
+    if (!flights) tile(title, '–', board.cells.every((cell) => cell.module !== name || cell.reason) ? 'not flown' : 'no flight with checks');
     else tile(title, `${passed} of ${flights}`, `${fixed(100 * passed / flights, 0)} % passed (${fixed(100 * low, 0)} to ${fixed(100 * high, 0)} %), ${collidedWords(total)}; ${countOf(worlds, 'world')}`);
   }
 }
 
 function fillGroups(host, data, table) {
   const share = (g) => g.ended ? g.passed / g.ended : 2;
-  const [all, ...rest] = data.groups, groups = [all, ...rest.sort((a, b) => share(a) - share(b))];
-  const completed = (g, i) => i ? completedCount(table, g.group) : table.rowsOf(null, data.controls).filter((row) => table.value('outcome', row) === 'completed').length;
+  const [all, ...rest] = data.groups, pair = comparedPair(data), groups = pair ?? [all, ...rest.sort((a, b) => share(a) - share(b))];
+  const completed = (g) => g !== all ? completedCount(table, g.group) : table.rowsOf(null, data.controls).filter((row) => table.value('outcome', row) === 'completed').length;
   if (data.controls.length) all.group = 'all flights without the control';
   const element = host.appendChild(make('table')), head = element.appendChild(make('thead'));
   addRow(head, [['scenario', ''], ['flights', 'number'], ['passed', 'number'], ['rate with 95 % interval', ''], ['', 'number'], ['reached', 'number'],
@@ -96,11 +100,11 @@ function fillGroups(host, data, table) {
     ['median of minimum clearance, m', 'number'], ['median time, s', 'number']], 'th');
   const body = element.appendChild(make('tbody'));
   for (const [i, g] of groups.entries()) {
-    const done = completed(g, i), row = addRow(body, [['', ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
+    const done = completed(g), row = addRow(body, [['', ''], [String(g.flights), 'number'], [g.no_checks && !g.ended ? 'no checks' : String(g.passed), 'number'], ['', ''],
       [g.ended ? `${fixed(g.low, 2)} to ${fixed(g.high, 2)}` : '–', 'number'],
       ...[g.reached, done, g.collided, g.timeout - done, g.broken, g.missing].map((n) => [String(n), 'number']),
       [fixed(g.min_clearance_m, 2), 'number'], [fixed(g.median_clearance_m, 2), 'number'], [fixed(g.median_time_s, 1), 'number']]);
-    row.firstChild.append(breakable('span', '', groupWords(g.group)));
+    row.firstChild.append(breakable('span', '', (pair ? `${i ? 'candidate' : 'base'}: ` : '') + groupWords(g.group)));
     const rate = row.children[3].appendChild(make('span', 'rate')), span = rate.appendChild(make('i'));
     span.style.left = 100 * g.low + '%';
     span.style.width = 100 * (g.high - g.low) + '%';
@@ -194,7 +198,7 @@ function main() {
     host('groups-card').remove();
     host('claims-card').remove();
   } else {
-    fillClaims(host('claims-card'), data.claims, data.controls.length > 0);
+    fillClaims(host('claims-card'), data);
     if (data.is_sweep) host('groups-card').querySelector('h2').textContent = 'Success by point';
   }
 

@@ -17,9 +17,14 @@ function countWords(counts) {
   return `${parts.join(', ')}. ${left}`;
 }
 
+/** Returns the groups of a paired comparison, [base, candidate]; null for any other campaign. */
+function comparedPair({groups, claims}) {
+  return groups.length === 3 && claims.conduct?.sequential.some(({candidate_better}) => candidate_better !== undefined) ? groups.slice(1) : null;
+}
+
+function percentRange([low, high]) { return `${short(100 * low)} % to ${short(100 * high)} %`; }
 function methodWords(claims) {
-  const rate = ([low, high]) => `${short(100 * low)} % to ${short(100 * high)} %`;
-  const method = claims.method === 'anytime' ? 'evaluated after every flight; the interval holds at all times simultaneously'
+  const rate = percentRange, method = claims.method === 'anytime' ? 'evaluated after every flight; the interval holds at all times simultaneously'
     : 'Wilson, for a number of flights planned in advance; invalid if flights are stopped depending on their results';
   const words = [`Success rate: 95 % interval ${rate(claims.interval)} (${method}).`];
   if (claims.if_missing) {
@@ -51,10 +56,12 @@ function addPlan(host, plan) {
   addFact(host, 'deviations', deviations.length ? deviations : 'None.', deviations.length ? 'bad-text' : 'pass');
 }
 
-function fillClaims(host, claims, without_control) {
-  const {conduct} = claims, list = host.appendChild(make('dl', 'facts'));
-  addFact(list, 'flights', (without_control ? 'Without the control: ' : '') + countWords(claims.counts));
-  addFact(list, 'rate', methodWords(claims));
+function fillClaims(host, data) {
+  const {claims, controls} = data, {conduct} = claims, pair = comparedPair(data), list = host.appendChild(make('dl', 'facts'));
+  addFact(list, 'flights', (controls.length ? 'Without the control: ' : '') + countWords(claims.counts));
+  if (!pair) addFact(list, 'rate', methodWords(claims));
+  pair?.forEach(({group, passed, ended, low, high}, i) => addFact(list, i ? 'candidate' : 'base',
+    `${groupWords(group)}: ${passed} of ${ended} passed, 95 % interval ${percentRange([low, high])}, which holds at all times simultaneously.`));
   for (const found of conduct?.sequential ?? []) {
     const className = claims.if_missing || found.verdict === 'undecided' ? '' : found.verdict === 'shown' ? 'pass' : 'bad-text';
     addFact(list, `${found.rule} (${found.group})`, found.words, className);

@@ -17,8 +17,9 @@ class SearchView {
     this.axes = new Axes(host.appendChild(make('div')), 240, {
       draw: (c) => this.draw(c), hover: (x, y) => this.lines(x, y),
       pick: (x, y) => { const row = this.at(x, y); if (row !== null) on.choose(row); }});
-    this.axes.set({...numberAxis('flight', [1, this.robustness.length]), whole: true}, numberAxis(search.suite ? 'distance beyond 1.5 m, or negative score' : 'minimum robustness of all checks', [...this.robustness, 0]));
-    host.append(make('div', 'plan-key', `line: minimum so far; below 0 ${search.suite ? 'a flight is unsafe' : 'a check fails'}`));
+    this.axes.set({...numberAxis('flight', [1, this.robustness.length]), whole: true}, numberAxis(search.suite ? 'distance beyond 1.5 m, or negative score' : 'minimum robustness', [...this.robustness, 0]));
+    const searched = search.checks ? (search.checks.length ? search.checks.join(', ') : 'all checks') : 'the searched checks';  // old files do not name them
+    host.append(make('div', 'plan-key', search.suite ? 'line: minimum so far; below 0 a flight is unsafe' : `minimum over ${searched}; line: minimum so far; below 0 a check fails`));
     if (search.suite) this.fillSuite(host, search.suite);
     const list = host.appendChild(make('div', 'pair halves'));
     kept.forEach((one, i) => this.fillFailure(list.appendChild(make('div')), one, search.paths, i));
@@ -103,7 +104,7 @@ class SearchView {
     map = new MapView(host.appendChild(make('div')), {...plan, goal: goal ? {n: goal[0], e: goal[1], radius: goal[2]} : null}, {n, e}, {
       draw: (c) => {
         if (!map) return;
-        c.strokeStyle = themeColor('c0');
+        c.strokeStyle = themeColor('bad');
         c.lineWidth = 2;
         c.beginPath();
         n.forEach((north, k) => c.lineTo(map.x(e[k]), map.y(north)));
