@@ -69,16 +69,6 @@ std::string unit_of_parameter(const std::string& path) {
   return units.size() == 1 ? std::string(*units.begin()) : "";
 }
 
-std::string unit_of(const std::string& name, const std::vector<FlightNotes>& notes) {
-  for (const FlightNotes& note : notes) {
-    if (const auto found = note.units.find(name); found != note.units.end()) return found->second;
-  }
-  if (name.starts_with("time.") && name.find("_ms") != std::string::npos) return "ms";
-  if (name.ends_with("_mps")) return "m/s";
-  if (name.ends_with("_m")) return "m";
-  return name.ends_with("_s") ? "s" : unit_of_parameter(name);
-}
-
 Json group_row(const GroupSummary& group, bool anytime) {
   const Interval interval = success_interval(group.success, anytime);
   return {{"group", group.group},
@@ -166,6 +156,16 @@ Json change_row(const GroupSummary& now, const GroupSummary& before, StoppedByRu
 
 }  // namespace
 
+std::string unit_of_column(const std::string& name, const std::vector<FlightNotes>& notes) {
+  for (const FlightNotes& note : notes) {
+    if (const auto found = note.units.find(name); found != note.units.end()) return found->second;
+  }
+  if (name.starts_with("time.") && name.find("_ms") != std::string::npos) return "ms";
+  if (name.ends_with("_mps")) return "m/s";
+  if (name.ends_with("_m")) return "m";
+  return name.ends_with("_s") ? "s" : unit_of_parameter(name);
+}
+
 GroupSummary all_flights(std::vector<FlightRecord> records, const std::set<std::string>& without) {
   std::erase_if(records, [&](const FlightRecord& record) { return without.contains(record.order.group); });
   for (FlightRecord& record : records) record.order.group = "all flights";
@@ -210,7 +210,8 @@ Json columns_data(const Table& table, const std::vector<FlightNotes>& notes) {
     if (std::ranges::all_of(words, &std::string::empty)) continue;
     const auto numbers = kWordColumns.contains(name) ? std::nullopt : all_numbers(words);
     const bool is_seeds = name == "seed" && std::ranges::all_of(words, is_seed);
-    Json column{{"name", name}, {"unit", unit_of(name, notes)}, {"is_text", !numbers && !is_seeds}, {"values", words}};
+    Json column{
+        {"name", name}, {"unit", unit_of_column(name, notes)}, {"is_text", !numbers && !is_seeds}, {"values", words}};
     if (numbers && !is_seeds) {
       column["values"] = Json::array();
       for (const double value : *numbers) column["values"].push_back(six(value));

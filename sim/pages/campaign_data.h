@@ -21,6 +21,9 @@ struct FlightNotes {
 /// Returns the notes of all records. @param folder  of the campaign.
 std::vector<FlightNotes> read_notes(const std::filesystem::path& folder, const std::vector<FlightRecord>& records);
 
+/// Returns the unit of a column of a table or of a key of a scenario, such as "wind.speed"; empty if it is unknown.
+std::string unit_of_column(const std::string& name, const std::vector<FlightNotes>& notes);
+
 /// Returns the table for the page, column by column: `columns` of {name, unit, is_text, values}. Numbers have six
 /// significant figures; empty fields and values that are not finite are null. Seeds are texts, because a number of a
 /// page is exact up to 2^53 only. Empty columns are omitted.

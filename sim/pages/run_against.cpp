@@ -16,6 +16,7 @@
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/words.h"
+#include "sim/pages/campaign_data.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
@@ -97,7 +98,7 @@ void collect(const Node& node, const std::string& path, std::map<std::string, st
   }
 }
 
-/// Returns the keys of both scenarios whose values differ: [key, other, own].
+/// Returns the keys of both scenarios whose values differ: [key, other, own, unit].
 Json settings(const RunRecord& own, const RunRecord& other) {
   std::map<std::string, std::string> a, b;
   ErrorList ignored("scenario");
@@ -108,7 +109,7 @@ Json settings(const RunRecord& own, const RunRecord& other) {
   for (const auto& [key, value] : a) {
     const auto found = b.find(key);
     const std::string before = found == b.end() ? "" : found->second;
-    if (before != value) rows.push_back({key, before, value});
+    if (before != value) rows.push_back({key, before, value, unit_of_column(key, {})});
   }
   return rows;
 }

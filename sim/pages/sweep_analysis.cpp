@@ -9,6 +9,7 @@
 
 #include "sim/batch/statistics.h"
 #include "sim/config/input_error.h"
+#include "sim/pages/campaign_data.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -36,12 +37,13 @@ std::vector<bool> log_ranges(const nlohmann::ordered_json& design, const SweepTa
   return log;
 }
 
-std::string label_of(const std::string& column) {
+std::string label_of(const std::string& column, const std::vector<FlightNotes>& notes) {
   constexpr std::array kUnits = {std::pair{"_mps", "m/s"}, std::pair{"_m", "m"}, std::pair{"_s", "s"}};
   for (const auto& [ending, unit] : kUnits) {
     if (column.ends_with(ending)) return column.substr(0, column.rfind('_')) + ", " + unit;
   }
-  return column;
+  const std::string unit = unit_of_column(column, notes);
+  return unit.empty() ? column : column + ", " + unit;
 }
 
 }  // namespace
@@ -91,7 +93,10 @@ SweepAnalysis analyze_sweep(const std::filesystem::path& folder, const FlightLis
                      suggestion(column, {points.columns.begin(), points.columns.end()}));
   }
   analysis.column = column;
-  analysis.label = label_of(column);
+  const std::vector<FlightNotes> notes = read_notes(folder, flights.records);
+  for (const auto& names : {points.paths, points.columns}) {
+    for (const std::string& name : names) analysis.labels[name] = label_of(name, notes);
+  }
   analysis.more_is_better = more_is_better(folder, flights, points);
   analysis.less = !analysis.more_is_better.contains(column);
   analysis.log = log_ranges(design, points);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,12 +25,14 @@ struct PointFigure {
 struct SweepAnalysis {
   SweepTable points;
   std::string column;
-  std::string label;                 ///< the column with its unit apart, such as "min_obstacle_clearance, m"
-  bool less = true;                  ///< whether less is better
-  std::vector<PointFigure> figures;  ///< one per point
-  std::vector<size_t> ranking;       ///< points without failed flights first, then by the mean, then by the clearance
+  std::map<std::string, std::string> labels;  ///< columns and parameters with units: "min_obstacle_clearance, m"
+  bool less = true;                           ///< whether less is better
+  std::vector<PointFigure> figures;           ///< one per point
+  std::vector<size_t> ranking;  ///< points without failed flights first, then by the mean, then by the clearance
   std::set<std::string> more_is_better;  ///< columns
   std::vector<bool> log;                 ///< per parameter: whether its range is logarithmic
+
+  const std::string& label() const { return labels.at(column); }
 };
 
 /// @param column  empty: the minimized column of an optimizer, else `passed` if it varies, else the clearance.

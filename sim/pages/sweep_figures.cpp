@@ -22,7 +22,7 @@ using Point = FigureCanvas::Point;
 
 constexpr double kWidth = 252.0, kHeight = 189.0;  // 3.5 inches: a column of a paper
 constexpr const char *kBlue = "#0072b2", *kOrange = "#d55e00", *kGrey = "#8d97a6";
-constexpr size_t kMaxLevels = 16, kBins = 8;
+constexpr size_t kMaxLevels = 16, kBins = 8, kPointsInBin = 4;
 
 /// A parameter on an axis: each point's place, and its level or range.
 struct Places {
@@ -32,6 +32,18 @@ struct Places {
   std::vector<std::string> level_words;  ///< in their order
   std::vector<double> level_at;
 };
+
+bool varies_in(const SweepTable& points, size_t parameter) {
+  return std::ranges::any_of(points.values, [&](const auto& v) { return v[parameter] != points.values[0][parameter]; });
+}
+
+/// Whether any parameter but this one varies.
+bool others_vary(const SweepTable& points, size_t parameter) {
+  for (size_t p = 0; p < points.paths.size(); ++p) {
+    if (p != parameter && varies_in(points, p)) return true;
+  }
+  return false;
+}
 
 Places places_of(const SweepAnalysis& analysis, size_t parameter) {
   const SweepTable& points = analysis.points;
@@ -43,7 +55,7 @@ Places places_of(const SweepAnalysis& analysis, size_t parameter) {
     if (parsed.kind == ParsedNumber::Kind::number) numbers.push_back(parsed.member);
     if (std::ranges::find(words, values[parameter]) == words.end()) words.push_back(values[parameter]);
   }
-  const std::string& name = points.paths[parameter];
+  const std::string& name = analysis.labels.at(points.paths[parameter]);
   if (numbers.size() != points.values.size()) {
     places.axis = FigureAxis::of_words(name, words);
     for (const auto& values : points.values) {
@@ -61,14 +73,19 @@ Places places_of(const SweepAnalysis& analysis, size_t parameter) {
   std::vector<double> levels = places.at;
   std::ranges::sort(levels);
   levels.erase(std::ranges::unique(levels).begin(), levels.end());
-  const double low = levels.front(), step = (levels.back() - low) / static_cast<double>(kBins);
-  if (levels.size() > kMaxLevels) {
+  // As on the page: ranges if most levels have a single point, so that a mean has several points.
+  const bool single = others_vary(points, parameter) && 3 * levels.size() > 2 * numbers.size();
+  const size_t bins = single ? std::clamp(numbers.size() / kPointsInBin, size_t{2}, kBins) : kBins;
+  const double low = levels.front(), step = (levels.back() - low) / static_cast<double>(bins);
+  const bool ranges = levels.size() > kMaxLevels || single;
+  if (ranges) {
     levels.clear();
-    for (size_t i = 0; i < kBins; ++i) levels.push_back(low + (static_cast<double>(i) + 0.5) * step);
+    for (size_t i = 0; i < bins; ++i) levels.push_back(low + (static_cast<double>(i) + 0.5) * step);
   }
   for (const double at : places.at) {
-    const auto nearest = std::ranges::min_element(levels, {}, [&](double level) { return std::abs(level - at); });
-    places.level.push_back(static_cast<size_t>(nearest - levels.begin()));
+    const auto level = ranges ? static_cast<size_t>((at - low) / step)
+                              : static_cast<size_t>(std::ranges::lower_bound(levels, at) - levels.begin());
+    places.level.push_back(std::min(level, levels.size() - 1));
   }
   places.level_at = levels;
   for (const double level : levels) {
@@ -97,7 +114,7 @@ FigureCanvas main_effects(const SweepAnalysis& analysis) {
   for (size_t p = 0; p < count; ++p) {
     const Places places = places_of(analysis, p);
     FigurePlot plot(canvas, {0.0, kHeight * static_cast<double>(p)}, kWidth, kHeight, places.axis,
-                    FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
+                    FigureAxis::of_numbers(analysis.label(), means(analysis.figures)));
     std::vector<std::vector<size_t>> groups(places.level_at.size());
     for (size_t i = 0; i < places.at.size(); ++i) {
       groups[places.level[i]].push_back(i);
@@ -115,12 +132,25 @@ FigureCanvas main_effects(const SweepAnalysis& analysis) {
   return canvas;
 }
 
+/// Draws the colors from `low` to `high` with these numbers, top left.
+void draw_scale(FigureCanvas& canvas, double low, double high, bool less) {
+  constexpr double kShades = 16.0, kShade = 2.5, kTop = 3.0;
+  const std::string first = fmt::format("{:.3g}", low);
+  const double left = 8.0 + FigureCanvas::text_width(first, 7.0);
+  canvas.text({4.0, 9.0}, first, 7.0);
+  for (double k = 0.0; k < kShades; ++k) {
+    const double share = k / (kShades - 1.0);
+    canvas.rectangle({left + kShade * k, kTop}, kShade, 6.0,
+                     {.fill = ramp_color(less ? 1.0 - share : share), .stroke = ""});
+  }
+  canvas.text({left + kShade * kShades + 4.0, 9.0}, fmt::format("{:.3g}", high), 7.0);
+}
+
 FigureCanvas heat_map(const SweepAnalysis& analysis, size_t across, size_t up) {
   FigureCanvas canvas(kWidth, 1.1 * kHeight);
   const Places x = places_of(analysis, across), y = places_of(analysis, up);
-  const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, 1.1 * kHeight,
-                        FigureAxis::of_words(analysis.points.paths[across], x.level_words),
-                        FigureAxis::of_words(analysis.points.paths[up], y.level_words));
+  const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, 1.1 * kHeight, FigureAxis::of_words(x.axis.label, x.level_words),
+                        FigureAxis::of_words(y.axis.label, y.level_words));
   std::map<std::pair<size_t, size_t>, std::vector<size_t>> cells;
   for (size_t i = 0; i < x.level.size(); ++i) cells[{x.level[i], y.level[i]}].push_back(i);
   double low = INFINITY, high = -INFINITY;
@@ -141,14 +171,17 @@ FigureCanvas heat_map(const SweepAnalysis& analysis, size_t across, size_t up) {
     canvas.text({0.5 * (corner.x + end.x), 0.5 * (corner.y + end.y) + 2.3}, words, 6.5, FigureCanvas::Anchor::center,
                 false, is_dark(color) ? "#ffffff" : "#1b2330");
   }
-  canvas.text({kWidth - 4.0, 9.0}, "mean of " + analysis.label, 7.0, FigureCanvas::Anchor::right);
+  canvas.text({kWidth - 4.0, 9.0}, shortened("mean of " + analysis.label(), 150.0, 7.0), 7.0,
+              FigureCanvas::Anchor::right);
+  if (low <= high) draw_scale(canvas, low, high, analysis.less);
   return canvas;
 }
 
 FigureCanvas pareto(const SweepAnalysis& analysis, const std::string& other, const std::vector<PointFigure>& figures) {
   FigureCanvas canvas(kWidth, kHeight);
-  const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, kHeight, FigureAxis::of_numbers(other, means(figures)),
-                        FigureAxis::of_numbers(analysis.label, means(analysis.figures)));
+  const FigurePlot plot(canvas, {0.0, 0.0}, kWidth, kHeight,
+                        FigureAxis::of_numbers(analysis.labels.at(other), means(figures)),
+                        FigureAxis::of_numbers(analysis.label(), means(analysis.figures)));
   const std::vector<size_t> front = pareto_front(analysis, figures, !analysis.more_is_better.contains(other));
   for (size_t i = 0; i < figures.size(); ++i) {
     if (std::isnan(figures[i].mean) || std::isnan(analysis.figures[i].mean)) continue;
@@ -229,8 +262,7 @@ std::vector<std::string> write_sweep_figures(const std::filesystem::path& folder
   draw("main_effects", main_effects(analysis));
   std::vector<size_t> varied;
   for (size_t p = 0; p < analysis.points.paths.size(); ++p) {
-    const auto& values = analysis.points.values;
-    if (std::ranges::any_of(values, [&](const auto& point) { return point[p] != values[0][p]; })) varied.push_back(p);
+    if (varies_in(analysis.points, p)) varied.push_back(p);
   }
   if (varied.size() > 1) draw("heat_map", heat_map(analysis, varied[0], varied[1]));
   if (const std::string other = second_column(flights, analysis); !other.empty()) {

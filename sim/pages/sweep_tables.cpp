@@ -103,8 +103,12 @@ std::string ranking_csv(const FlightList& flights, const SweepAnalysis& analysis
 std::string ranking_latex(const SweepAnalysis& analysis) {
   constexpr size_t kRows = 10;
   Words head = {"rank"};
-  for (const std::string& path : analysis.points.paths) head.push_back("\\texttt{" + latex(path) + "}");
-  head.insert(head.end(), {"mean of " + latex(analysis.label), "95\\,\\% interval", "passed"});
+  for (const std::string& path : analysis.points.paths) {
+    const std::string& label = analysis.labels.at(path);  // the path, or "wind.speed, m/s"
+    const std::string unit = label.starts_with(path) ? label.substr(path.size()) : "";
+    head.push_back("\\texttt{" + latex(path) + "}" + latex(unit));
+  }
+  head.insert(head.end(), {"mean of " + latex(analysis.label()), "95\\,\\% interval", "passed"});
   std::vector<Words> rows;
   for (const size_t i : analysis.ranking) {
     if (rows.size() == kRows) break;

@@ -79,7 +79,7 @@ TEST(RunAgainst, NamesTheFirstDifferenceAndTheSettings) {
   EXPECT_THAT(
       page.value.at("lines")[0].get<std::string>(),
       ::testing::MatchesRegex("First decision that differs at 0.0[0-9]* s: column [a-z_]+ is [-0-9.]{1,7} here, .*"));
-  EXPECT_THAT(page.value.at("text").get<std::string>(), HasSubstr("avoidance.speed"));
+  EXPECT_THAT(page.value.at("text").get<std::string>(), HasSubstr("avoidance.speed, m/s"));
   EXPECT_GT(page.value.at("plots"), 2);
   ASSERT_EQ(folder.hedgehop("report a --against a").status, 0);
   EXPECT_THAT(folder.read("a/report.html"), HasSubstr("The trajectories are equal, bit for bit."));

@@ -12,7 +12,7 @@ class EffectsView {
     const {effects} = this.points.sweep, indices = effects.columns?.[column];
     this.table.replaceChildren();
     if (!effects.method) {
-      this.note.textContent = 'Variance-based indices need a full grid, or design: {type: sobol, indices: true}. The slices show the main effects.';
+      this.note.textContent = 'Variance-based indices need a full grid, or design: {type: sobol, indices: true}. The blue lines of the slices only approximate the main effects.';
       return;
     }
     if (!indices) {

@@ -47,11 +47,11 @@ function fixed(value, decimals) {
 function quoted(text) { return text.replace(/`([^`]*)`/g, '“$1”'); }
 /** Returns a unit with raised powers: "m/s³". */
 function unitWords(unit) { return unit.replace('^2', '²').replace('^3', '³'); }
-/** Returns a number with its unit; a small time in a smaller unit: "0.25 µs", not "0.00025 ms". */
-function measured(value, unit, figures = 4) {
+/** Returns a number with its unit; a small time in a smaller unit: "0.25 µs", not "0.00025 ms". @param like  number that chooses this unit. */
+function measured(value, unit, figures = 4, like = value) {
   const units = ['s', 'ms', 'µs', 'ns'];
   let i = units.indexOf(unit);
-  if (value && i >= 0) for (; Math.abs(value) < 0.01 && i < units.length - 1; ++i) value *= 1000;
+  if (like && i >= 0) for (; Math.abs(like) < 0.01 && i < units.length - 1; ++i) [value, like] = [1000 * value, 1000 * like];
   return short(value, figures) + (unit && value !== null ? ' ' + (units[i] ?? unitWords(unit)) : '');
 }
 /** Returns the outcome for pages: "completed" for a timeout without a goal, which is a normal end. */
@@ -77,8 +77,8 @@ function makeRamp(stops) {
 
 /** Returns the color of text on an "rgb(r,g,b)" background: the one with more contrast. */
 function inkOn(color) {
-  const [r, g, b] = color.match(/\d+/g).map((v) => (v / 255) ** 2.2);
-  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.214 ? '#1b2330' : '#ffffff';
+  const [r, g, b] = color.match(/\d+/g).map((v) => v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.179 ? '#000000' : '#ffffff';  // the contrast is at least 4.5
 }
 
 /** Returns round numbers in [low, high], about `count` of them and never many more: {step, values}. */
@@ -141,7 +141,7 @@ function onChoose(element, action) {
 }
 
 /** Returns the end of a name in this unit, such as "_mps". */
-function unitSuffix(unit) { return '_' + unit.replace('m/s', 'mps'); }
+function unitSuffix(unit) { return '_' + unit.toLowerCase().replace('/', 'p').replace('^', '').replace('²', '2').replace('³', '3'); }
 /** Returns a count with its noun: "1 flight", "2 flights". */
 function countOf(count, noun) { return `${count} ${noun}${count === 1 ? '' : 's'}`; }
 /** Returns the name of a group without the number of a sweep's point, and its values rounded. */
@@ -157,6 +157,11 @@ function breakable(tag, className, text) {
     for (const part of word.split(/(?<=[_/]|\.(?!\d))/)) whole.append(part, make('wbr'));
   });
   return element;
+}
+/** Adds a row of headings [text, class] that break in long names. */
+function addHeadings(table, cells) {
+  const row = table.appendChild(make('tr'));
+  for (const [text, className] of cells) row.append(breakable('th', className, text));
 }
 /** Returns the words of a check or metric. A name without its unit, because the unit is next to the value. */
 function wordsOf(name, unit) {

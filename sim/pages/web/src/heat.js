@@ -5,7 +5,7 @@ class HeatMap {
   constructor(host, points, choice, on) {
     Object.assign(this, {points, on});
     const columns = points.paths.map((name) => ({name}));
-    const [x, y] = points.paths.filter((path, k) => new Set(points.points.map((p) => p.values[k])).size > 1).concat(points.paths);
+    const [x, y] = points.paths.filter((path, k) => points.levels(k) > 1).concat(points.paths);
     const controls = host.appendChild(make('div', 'controls'));
     this.x = columnSelect(controls, 'across', columns, x, () => this.update());
     this.y = columnSelect(controls, 'up', columns, y, () => this.update());

@@ -4,7 +4,7 @@
 class ParallelView {
   constructor(host, points, choice, on) {
     Object.assign(this, {points, on, chosen: null, bottom: 280, font: '11px system-ui, "DejaVu Sans", sans-serif'});
-    this.host = host.appendChild(make('div', 'plot-host'));
+    this.host = host.appendChild(make('div', 'scroll')).appendChild(make('div', 'plot-host'));
     this.canvas = this.host.appendChild(make('canvas'));
     this.tip = this.host.appendChild(make('div', 'tip'));
     this.tip.hidden = true;
@@ -26,9 +26,10 @@ class ParallelView {
     };
     const ofColumn = (name) => {
       const figures = points.of(name);
-      return {name: 'mean ' + name.split('.').at(-1), axis: numberAxis('', figures.map(({mean}) => mean)), of: (i) => figures[i].mean};
+      return {name: 'mean ' + points.label(name), axis: numberAxis('', figures.map(({mean}) => mean)), of: (i) => figures[i].mean};
     };
     this.axes = [...points.paths.map(ofParameter), ...extra.map(ofColumn), ofColumn(choice.column)];
+    this.host.style.minWidth = 92 + 84 * (this.axes.length - 1) + 'px';  // for the names
     this.range = finiteRange(points.of(choice.column).map(({mean}) => mean));
     describeDrawing(this.canvas, `Parallel coordinates of ${this.axes.map(({name}) => name).join(', ')}`);
     this.draw();

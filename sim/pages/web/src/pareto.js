@@ -12,6 +12,7 @@ class ParetoView {
       this.update();
     });
     this.xBest = controls.appendChild(make('select'));
+    this.xBest.ariaLabel = 'direction of the column across';
     for (const word of ['less', 'more']) this.xBest.appendChild(make('option', '', word + ' is better')).value = word;
     this.xBest.value = points.better(second);
     this.xBest.addEventListener('change', () => this.update());
@@ -42,7 +43,7 @@ class ParetoView {
     this.key.replaceChildren(make('span', '', `ringed: the Pareto front, ${this.front.length} of ${points.points.length} points` +
       (rivals === passing ? '; only points without failed flights are on it' : '')));
     const element = make('table', 'ranking');
-    addRow(element.appendChild(make('thead')), [...points.headings().map((name) => [name, 'number']), [points.label(x), 'number'], [points.label(y), 'number']], 'th');
+    addHeadings(element.appendChild(make('thead')), [...points.headings().map((name) => [name, 'number']), [points.label(x), 'number'], [points.label(y), 'number']]);
     const body = element.appendChild(make('tbody'));
     for (const i of this.front) {
       const line = addRow(body, [...points.points[i].values.map((value) => [valueWords(value), 'number']), [short(this.xs[i].mean), 'number'], [short(this.ys[i].mean), 'number']]);

@@ -1,6 +1,8 @@
 'use strict';
 // The points of a sweep: means of a column over the seeds, their intervals, and the ranking.
 
+const pointsInBin = 4;  // at least, on average
+
 /** The points of a sweep in the order of their first flight. */
 class SweepPoints {
   constructor(data, table) {
@@ -59,11 +61,10 @@ class SweepPoints {
     return [...this.points.keys()].sort((a, b) => failing(this.points[a]) - failing(this.points[b]) ||
       (cost(a) < cost(b) ? -1 : cost(a) > cost(b) ? 1 : 0) || close(b) - close(a) || a - b);
   }
-  /** Headings of the parameters: their last keys, or the full ones if these are not unique. */
-  headings() {
-    const last = this.paths.map((path) => path.split('.').at(-1));
-    return this.paths.map((path, k) => last.filter((name) => name === last[k]).length > 1 ? path : last[k]);
-  }
+  /** Number of different values of a parameter. */
+  levels(k) { return new Set(this.points.map(({values}) => values[k])).size; }
+  /** Headings of the parameters, with units. */
+  headings() { return this.paths.map((path) => this.label(path)); }
   /** "braking = 1.5, reaction = 0.4" with the full keys. */
   words(i) { return this.paths.map((path, k) => `${path} = ${valueWords(this.points[i].values[k])}`).join(', '); }
   /** The command that flies all seeds of a point. */
@@ -124,15 +125,21 @@ function parameterAxis(points, k) {
   return {axis, at: Math.log10, levels};
 }
 
-/** Levels of a parameter, or ranges if there are many: {words, of(value) -> index, at(index) -> position on the axis}. */
+/**
+ * Levels of a parameter, or ranges if there are many levels or few points per level:
+ * {words, of(value) -> index, at(index) -> position on the axis}.
+ */
 function parameterBins(points, k) {
-  const {axis, at, levels} = parameterAxis(points, k);
-  if (levels.length <= mostCategories) {
-    const figures = points.table.columns.get(points.paths[k]).is_text || figuresFor(levels);
+  const {axis, at, levels} = parameterAxis(points, k), count = points.points.length;
+  const is_text = points.table.columns.get(points.paths[k]).is_text, others_vary = points.paths.some((path, other) => other !== k && points.levels(other) > 1);
+  const single = !is_text && others_vary && 1.5 * levels.length > count;
+  if (levels.length <= mostCategories && !single) {
+    const figures = is_text || figuresFor(levels);
     return {axis, words: levels.map((value) => valueWords(value, figures)), of: (value) => levels.indexOf(value), at: (i) => at(levels[i]), levels: true};
   }
-  const [low, high] = finiteRange(levels.map(at)), step = (high - low) / numberBins;
+  const bins = single ? Math.max(2, Math.min(numberBins, Math.floor(count / pointsInBin))) : numberBins;
+  const [low, high] = finiteRange(levels.map(at)), step = (high - low) / bins;
   const back = (x) => points.sweep.parameters[k]?.log ? 10 ** x : x;
-  const words = rangeWords(Array.from({length: numberBins + 1}, (_, i) => back(low + i * step)));
-  return {axis, words, of: (value) => Math.min(numberBins - 1, Math.floor((at(value) - low) / step)), at: (i) => low + (i + 0.5) * step, levels: false};
+  const words = rangeWords(Array.from({length: bins + 1}, (_, i) => back(low + i * step)));
+  return {axis, words, of: (value) => Math.min(bins - 1, Math.floor((at(value) - low) / step)), at: (i) => low + (i + 0.5) * step, levels: false};
 }

@@ -18,6 +18,7 @@ class RankingView {
       this.change();
     });
     this.better = controls.appendChild(make('select'));
+    this.better.ariaLabel = 'direction of the column';
     for (const word of ['less', 'more']) this.better.appendChild(make('option', '', word + ' is better')).value = word;
     this.better.value = points.better(column);
     this.better.addEventListener('change', () => this.change());
@@ -48,15 +49,22 @@ class RankingView {
     const best = this.best, point = points.points[best];
     this.answer.replaceChildren(make('p', 'best', points.words(best)),
       make('p', 'soft', `mean of ${choice.column} ${meanWords(points.of(choice.column)[best], points.unit(choice.column))} over ` +
-        `${countOf(point.rows.length, 'seed')}; ${passedWords(point, 'flight')}; best of ${countOf(points.points.length, 'point')}. It is flown by`));
+        `${countOf(point.rows.length, 'seed')}; ${passedWords(point, 'flight')}; ${this.tieWords()}. It is flown by`));
     addCommand(this.answer, points.command(best));
     this.drawList();
+  }
+  /** "best of 9 points", or the number of points with an equal mean. */
+  tieWords() {
+    const {points, order, best} = this, figures = points.of(this.choice.column), count = countOf(points.points.length, 'point');
+    const failing = (i) => this.choice.passedFirst && !noneFailed(points.points[i]);
+    const ties = order.filter((i) => figures[i].mean === figures[best].mean && failing(i) === failing(best)).length;
+    return ties === 1 ? `best of ${count}` : `${ties} of ${count} share this best mean, ordered by minimum clearance`;
   }
   drawList() {
     const {points, choice, order} = this, figures = points.of(choice.column);
     const element = make('table', 'ranking'), head = element.appendChild(make('thead'));
-    addRow(head, [['rank', 'number'], ...points.headings().map((name) => [name, 'number']), [`mean of ${points.label(choice.column)}`, 'number'],
-      ['95 % interval', 'number'], ['', ''], ['passed', 'number']], 'th');
+    addHeadings(head, [['rank', 'number'], ...points.headings().map((name) => [name, 'number']), [`mean of ${points.label(choice.column)}`, 'number'],
+      ['95 % interval', 'number'], ['', ''], ['passed', 'number']]);
     const body = element.appendChild(make('tbody'));
     const [least, most] = finiteRange(figures.flatMap(({mean, low, high}) => [mean, low, high]));
     const share = (v) => 100 * (v - least) / (most - least || 1) + '%';

@@ -43,7 +43,7 @@ class RunAgainst {
     const table = host.appendChild(make('table'));
     addRow(table, [['setting', ''], ['this run', 'number'], ['other run', 'number']], 'th');
     const cut = (text) => text === '' ? '–' : text.length > 60 ? text.slice(0, 57) + '…' : text;
-    for (const [key, other, own] of settings.slice(0, 30)) addRow(table, [[key, ''], [cut(own), 'number'], [cut(other), 'number']]);
+    for (const [key, other, own, unit] of settings.slice(0, 30)) addRow(table, [[columnLabel({name: key, unit: unitWords(unit)}), ''], [cut(own), 'number'], [cut(other), 'number']]);
     if (settings.length > 30) host.append(make('p', 'soft', `and ${settings.length - 30} more`));
   }
   fillPaths(host) {

@@ -23,6 +23,7 @@ class Scatter {
   }
   bestSelect(host, chosen) {
     const element = host.appendChild(make('select'));
+    element.ariaLabel = 'direction of the column to the left';
     for (const word of ['less', 'more']) element.appendChild(make('option', '', word + ' is better')).value = word;
     element.value = chosen;
     element.addEventListener('change', () => this.update());

@@ -1,5 +1,5 @@
 'use strict';
-// A column over each parameter: all points, the mean over the other parameters, and the slice through one point.
+// A column over each parameter: all points, the mean of each level or range, and the slice through one point.
 
 class SlicesView {
   constructor(host, points, choice, chosen, on) {
