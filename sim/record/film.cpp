@@ -144,8 +144,9 @@ cv::Mat contact_sheet(std::span<const avoidance::CameraFrame> frames) {
     to_rgb(frame.image).copyTo(sheet(cv::Rect(corner, frame.image.size())));
     std::string label = frame.role;
     if (frame.image.type() == CV_32FC1) label += fmt::format(", white 0 m, black {:.0f} m", kBlackDepthM);
-    cv::putText(sheet, label, corner + cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 210, 64}, 1,
-                cv::LINE_AA);
+    for (const auto& [color, width] : {std::pair{cv::Scalar::all(0), 3}, std::pair{cv::Scalar(255, 210, 64), 1}}) {
+      cv::putText(sheet, label, corner + cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55, color, width, cv::LINE_AA);
+    }
   }
   return sheet;
 }

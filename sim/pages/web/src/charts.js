@@ -48,7 +48,7 @@ function drawLimits(u, panel) {
     c.font = `${11 * devicePixelRatio}px system-ui, "DejaVu Sans", sans-serif`;
     c.textAlign = 'right';
     c.textBaseline = 'bottom';
-    c.fillText(label + ' ' + short(value), left + width - 4 * devicePixelRatio, y - 2 * devicePixelRatio);
+    c.fillText(`${label} ${short(value)} ${unitWords(panel.unit)}`.trim(), left + width - 4 * devicePixelRatio, y - 2 * devicePixelRatio);
     c.restore();
   }
 }
@@ -151,7 +151,7 @@ class Charts {
         }}},
       axes: [{...axis, size: 30, label: xLabel, labelSize: 14,
         values: (u, splits) => splits.map((v) => v === null ? '' : v.toLocaleString('en-US').replace('-', '−'))},
-        {...axis, space: Math.min(30, this.height / 7), size: (u, texts) => Math.max(46, 14 + 7 * Math.max(...(texts ?? []).map(({length}) => length))), label: panel.unit, values: (u, splits) => tickTexts(splits)}],
+        {...axis, space: Math.min(30, this.height / 7), size: (u, texts) => Math.max(46, 14 + 7 * Math.max(...(texts ?? []).map(({length}) => length))), label: unitWords(panel.unit) || (panel.series.length === 1 ? panel.series[0].label : panel.title), values: (u, splits) => tickTexts(splits)}],
       series: [{label: symbol, value: (u, v) => v === null ? '' : `${fixed(v, 2)} ${unit}`},
         ...panel.series.map(({label, role}, i) => ({
           label, stroke: looks[i].color, width: looks[i].width, dash: looks[i].dash, points: points && role !== 'est' ? {show: true, size: 5, fill: looks[i].color} : {show: false},

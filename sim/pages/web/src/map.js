@@ -268,7 +268,7 @@ class MapView {
     if ([e0, e1].some((e) => crosses(this.x(e), frame.x, frame.width)) || [n0, n1].some((n) => crosses(this.y(n), frame.y, frame.height))) {
       const item = this.key.appendChild(make('span'));
       item.appendChild(make('i')).style.border = `1px dashed ${themeColor('solid-edge')}`;
-      item.append('flight area');
+      item.append('area of the scene');
     }
     this.key.append(make('span', '', 'north up, to scale'));
   }

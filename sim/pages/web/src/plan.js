@@ -97,7 +97,8 @@ class PlanView {
       c.arc(x, y, 9, 0, 2 * Math.PI);
       c.stroke();
       const text = result.outcome === 'collided' && near.distance_m <= 0 ? 'collided' : 'closest: ' + meters(near.distance_m);
-      map.label(c, text, x, y + 20, themeColor('bad'));
+      const from = [map.x(path.e[0]), map.y(path.n[0]) - 13], covers = Math.abs(x - from[0]) < 75 && Math.abs(y + 20 - from[1]) < 16;
+      map.label(c, text, x, covers ? from[1] - 16 : y + 20, themeColor('bad'));
     }
     if (this.row !== null) this.drawVehicle(c, this.row, ink);
   }

@@ -59,6 +59,7 @@ function fillTiles(host, result) {
   tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${measured(result.wall_s, 's', 3)} of wall time`);
 }
 
+const localMapColors = 'Light: free; grey: unknown; dark: obstacle; green: planned path and hull; blue: route; orange: moving obstacle; red circle: place to look at.';
 const RELATIONS = {'<=': '≤', '>=': '≥', '>': '>'};
 
 /** Returns the figures with which a value differs from its limit, so that no failure reads as "2.04 ≤ 2.04". */
@@ -101,10 +102,10 @@ function fillDetails(host, {result, module, scene, vehicle, scenario_yaml}) {
     addRow(table, [[title, ''], ['', 'number']], 'th');
     rows.forEach(([name, value]) => addRow(table, [[name, ''], [value, 'number']]));
   };
-  const stage = (s) => s ? `${measured(s.median, 'ms', 3)}, 95 % below ${measured(s.p95, 'ms', 3)}` : '–';
+  const stage = (s) => s ? `${measured(s.median, 'ms', 3)}, 95 % below ${measured(s.p95, 'ms', 3, s.median)}` : '–';
   add('run', [['module', module], ['scene', scene], ['vehicle', vehicle], ['trajectory hash', result.trajectory_hash]], first);
   add('wall time, median', [['decision', stage(result.decision_ms)], ['images of all cameras', stage(result.render_ms)],
-    ['velocity from flow', stage(result.velocimeter_ms)], ['physics step', stage(result.physics_ms)]], first);
+    ...(result.velocimeter_ms?.p95 ? [['velocity from flow', stage(result.velocimeter_ms)]] : []), ['physics step', stage(result.physics_ms)]], first);
   const metrics = Object.entries(result.metrics).map(([name, value]) => {
     const unit = result.metric_units?.[name] ?? '';
     return [wordsOf(name, unit), measured(value, unit)];
@@ -189,6 +190,7 @@ function main() {
   fillDetails(document.getElementById('details'), data);
   const film = openFilm(), filmView = film && new FilmView(film);
   if (film) setPoster(film, data.result.closest_obstacle?.t_s ?? 0);
+  if (film && data.module === 'local_map') document.getElementById('film-card').append(make('p', 'plan-key', localMapColors));
   fillStory(document.getElementById('story'), data, film);
   const against = new RunAgainst(document.getElementById('against'), data, film);
   if (!data.map) document.getElementById('landmarks-card').remove();

@@ -50,7 +50,7 @@ function addRows(host, rows) {
     '95 % interval', 'holds', 'build'].map((text) => [text, '']), 'th');
   for (const r of rows) {
     const row = line([[r.claim + (r.unit ? `, ${r.unit}` : ''), ''], [r.paper || '–', ''],
-      [r.required, ''], [r.published, r.published_holds === false ? 'fail' : ''],
+      [r.required, ''], r.published_holds === false ? [r.published + ' ✕', 'fail'] : [r.published, ''],
       ...[r.ideal, r.day, r.dull, r.flights, r.interval].map((text) => [text, '']),
       r.holds === null ? ['–', ''] : r.holds ? ['holds', 'pass'] : ['does not hold', 'fail'], [r.build.join(', '), '']], 'td');
     row.lastChild.append(' ', copyButton(r.command));
@@ -79,7 +79,7 @@ function main() {
     + `${judged.filter(({holds}) => holds).length} of ${judged.length} figures that are required hold.`
     + (quick ? ' Quick run: few seeds were flown.' : '')));
   head.append(make('p', 'soft', 'Hedgehop\'s developers set the requirements; no paper states them. '
-    + '"Published" is red if the paper\'s own law does not meet the requirement.'));
+    + '"Published" has a ✕ if the paper\'s own law does not meet the requirement.'));
   const drawings = [];
   for (const paper of papers) {
     const section = document.getElementById('papers').appendChild(make('section', 'paper'));
