@@ -66,8 +66,8 @@ void examine_seeds(const CampaignConfig& campaign, const Node& root, ErrorList& 
 /// Gathers orders and keeps their groups and folders apart.
 class Gatherer {
  public:
-  explicit Gatherer(const std::vector<uint64_t>& seeds, const std::vector<std::string>& overrides)
-      : seeds_(seeds), overrides_(overrides) {}
+  Gatherer(const std::vector<uint64_t>& seeds, const std::vector<std::string>& overrides, const OrderCheck& check)
+      : seeds_(seeds), overrides_(overrides), check_(check) {}
 
   void add_input(const fs::path& input, bool recursive) {
     std::error_code error;
@@ -95,6 +95,8 @@ class Gatherer {
         order.group = scenario.name;
         for (const std::string& text : overrides) order.group += " " + text;
       }
+      order.seed = seeds.empty() ? scenario.seed : seeds.front();
+      if (check_) check_(scenario, order);
       const std::string folder = claim(order);
       for (const uint64_t seed : seeds.empty() ? std::vector<uint64_t>{scenario.seed} : seeds) {
         order.id = fmt::format("{}/seed{}", folder, seed);
@@ -209,6 +211,7 @@ class Gatherer {
   const std::vector<std::string>& overrides_;
   BatchOrders batch_;
   OverridePositions positions_;                                         ///< of the last campaign
+  const OrderCheck& check_;
   std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
   std::map<std::string, int> taken_;
   std::set<std::string> ids_;
@@ -268,15 +271,15 @@ std::vector<FlightRecord> without_refused(std::vector<FlightRecord> records) {
 }
 
 BatchOrders read_batch(const std::vector<fs::path>& inputs, const std::vector<uint64_t>& seeds,
-                       const std::vector<std::string>& overrides, bool recursive) {
-  Gatherer gatherer(seeds, overrides);
+                       const std::vector<std::string>& overrides, bool recursive, const OrderCheck& check) {
+  Gatherer gatherer(seeds, overrides, check);
   for (const fs::path& input : inputs) gatherer.add_input(input, recursive);
   return gatherer.take();
 }
 
 BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,
-                      const std::vector<std::string>& overrides) {
-  Gatherer gatherer(seeds, overrides);
+                      const std::vector<std::string>& overrides, const OrderCheck& check) {
+  Gatherer gatherer(seeds, overrides, check);
   gatherer.add_flights(flights, {});
   return gatherer.take();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -172,17 +173,22 @@ struct BatchOrders {
   std::vector<std::string> left_out;          ///< one line for each folder of which files are left out
 };
 
+/// Throws InputError if a flight is not possible, although its scenario is valid.
+using OrderCheck = std::function<void(const Scenario& scenario, const Order& order)>;
+
 /// Returns the orders of scenario files, campaign files and folders (their YAML files, sorted by name), in the order of
 /// the inputs.
 /// @param seeds      replace those of files and campaigns unless empty.
 /// @param overrides  "a.b=value", applied to every scenario after a campaign's own.
 /// @param recursive  whether the subfolders of folders are read, too.
+/// @param check      called once for each scenario, with its first seed; empty: no check.
 BatchOrders read_batch(const std::vector<std::filesystem::path>& inputs, const std::vector<uint64_t>& seeds,
-                       const std::vector<std::string>& overrides, bool recursive = false);
+                       const std::vector<std::string>& overrides, bool recursive = false, const OrderCheck& check = {});
 
-/// Returns the orders of scenarios, each with its seeds and overrides. @param seeds, overrides  as for read_batch().
+/// Returns the orders of scenarios, each with its seeds and overrides. @param seeds, overrides, check  as for
+/// read_batch().
 BatchOrders orders_of(const std::vector<CampaignFlights>& flights, const std::vector<uint64_t>& seeds,
-                      const std::vector<std::string>& overrides);
+                      const std::vector<std::string>& overrides, const OrderCheck& check = {});
 
 /// Loads the scenario of an order with its overrides, and stores the hash and the input files in the order. Throws
 /// InputError. @param file  of the scenario, named as in messages.

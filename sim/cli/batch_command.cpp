@@ -12,6 +12,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
+#include "sim/cli/flyable.h"
 #include "sim/config/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -55,9 +56,10 @@ PlannedBatch read_orders(const BatchOptions& options, const std::filesystem::pat
   if (options.inputs.empty() && !plan && !(overrides.empty() && options.seeds.empty())) {
     throw InputError("batch --failed-only repeats the flights of --out as they are: no --seeds, --set or --renderer");
   }
-  BatchOrders batch = plan                     ? orders_of(*plan, seeds, overrides)
-                      : options.inputs.empty() ? reread_batch(out / "batch.json")
-                                               : read_batch(options.inputs, seeds, overrides, options.recursive);
+  BatchOrders batch = plan ? orders_of(*plan, seeds, overrides, require_flyable_foreign)
+                      : options.inputs.empty()
+                          ? reread_batch(out / "batch.json")
+                          : read_batch(options.inputs, seeds, overrides, options.recursive, require_flyable_foreign);
   if (!plan) plan = plan_of(batch);
   add_checks(options, batch);
   if (batch.orders.empty() || std::ranges::none_of(batch.orders, &std::string::empty, &Order::fault)) {

@@ -5,6 +5,7 @@
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/fly_batch.h"
+#include "sim/cli/flyable.h"
 #include "sim/config/whole_file.h"
 
 namespace hedgehop::sim::cli {
@@ -12,7 +13,8 @@ namespace {
 
 BatchOrders orders_of(const CompareOptions& options) {
   const std::vector<uint64_t> seeds = parse_seeds(options.seeds);
-  BatchOrders batch = read_batch({options.base, options.candidate}, seeds, options.overrides);
+  BatchOrders batch = read_batch({options.base, options.candidate}, seeds, options.overrides, /*recursive=*/false,
+                                 require_flyable_foreign);
   if (!batch.faults.empty()) throw InputError(batch.faults);
   for (const std::filesystem::path& file : {options.base, options.candidate}) {
     if (std::ranges::find(batch.orders, file.lexically_normal(), &Order::scenario) == batch.orders.end())

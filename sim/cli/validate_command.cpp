@@ -12,13 +12,14 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
+#include "sim/cli/flyable.h"
 #include "sim/config/include.h"
 #include "sim/config/whole_file.h"
 #include "sim/evidence/conduct.h"
 #include "sim/falsify/falsify_file.h"
 #include "sim/flight/words.h"
 #include "sim/reproduce/paper.h"
-#include "sim/simulation/simulation.h"
+#include "sim/scenario/flight_parts.h"
 #include "sim/sweep/sweep_file.h"
 
 namespace hedgehop::sim::cli {
@@ -60,29 +61,18 @@ ValidFile read_plan(const std::filesystem::path& file, const std::vector<std::st
   return valid;
 }
 
-/// Places the vehicle of a flight: some errors show only in the assembled parts. Adds the remarks on its scene's files.
-void assemble(const Order& order, std::set<std::string>& remarks) {
-  try {
-    LoadedScenario loaded = load_flight(order.scenario, order.overrides, order.seed);
-    loaded.scenario.link.reset();
-    remarks.insert(loaded.parts.files.remarks.begin(), loaded.parts.files.remarks.end());
-    Simulation(std::move(loaded));
-  } catch (const std::invalid_argument& error) {
-    throw InputError(fmt::format("{}: {}", order.scenario.string(), error.what()));
-  }
-}
-
 /// Returns the content of a scenario or a campaign. Throws InputError with every error.
 ValidFile read_flights_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const BatchOrders batch = read_batch({file}, {}, overrides);
+  ValidFile valid;
+  const BatchOrders batch =
+      read_batch({file}, {}, overrides, /*recursive=*/false,
+                 [&](const Scenario&, const Order& order) { valid.remarks.merge(require_flyable(order)); });
   if (!batch.faults.empty()) throw InputError(batch.faults);
   require_decidable(batch);
   if (const auto plan = plan_of(batch)) require_planned_number(batch, *plan);
-  ValidFile valid;
   std::map<std::string, size_t> groups;
   for (const Order& order : batch.orders) {
     if (++groups[order.group] > 1) continue;
-    assemble(order, valid.remarks);
     for (const auto& [input, hash] : order.inputs) {
       std::error_code error;
       valid.used.insert(std::filesystem::weakly_canonical(order.scenario.parent_path() / input, error));

@@ -97,12 +97,12 @@ std::optional<Registration> plan_of(const BatchOrders& batch) {
 }
 
 BatchOrders orders_of(const Registration& plan, const std::vector<uint64_t>& seeds,
-                      const std::vector<std::string>& overrides) {
+                      const std::vector<std::string>& overrides, const OrderCheck& check) {
   std::vector<CampaignFlights> all;
   for (const RegisteredFlights& flights : plan.config.flights) {
     all.push_back({.scenario = flights.scenario, .seeds = flights.seeds, .tuned_on = {}, .set = {}});
   }
-  return orders_of(all, seeds, overrides);
+  return orders_of(all, seeds, overrides, check);
 }
 
 std::vector<std::string> deviations(const Registration& plan, const std::vector<Order>& orders,

@@ -79,9 +79,9 @@ Registration read_registration(const std::filesystem::path& file);
 /// Returns the plan that a batch names; nullopt if it names no plan. Throws like read_registration().
 std::optional<Registration> plan_of(const BatchOrders& batch);
 
-/// Returns the orders of a plan. @param seeds, overrides  as for read_batch().
+/// Returns the orders of a plan. @param seeds, overrides, check  as for read_batch().
 BatchOrders orders_of(const Registration& plan, const std::vector<uint64_t>& seeds,
-                      const std::vector<std::string>& overrides);
+                      const std::vector<std::string>& overrides, const OrderCheck& check = {});
 
 /// Returns the deviations of a batch from its plan, one line each; empty if it is as registered.
 /// @param limit_s  maximum wall time of a flight; 0 for no limit.

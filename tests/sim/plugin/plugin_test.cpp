@@ -57,6 +57,31 @@ TEST_F(Plugin, ParametersAreReadAsStrictlyAsOurs) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+TEST_F(Plugin, OneThatABatchCannotFlyIsRefusedAndTheOthersAreFlown) {
+  const std::pair<std::string, std::string> ways[] = {{"missing.so", "plug.yaml:4:21: 'avoidance.plugin': "},
+                                                      {HEDGEHOP_MISBEHAVING, "plug.yaml:4:"}};
+  for (const auto& [library, words] : ways) {
+    fly_by(library, "in_process: true, parameters: {sped: 1}");
+    const CommandEnd end = folder.hedgehop("batch tiny.yaml plug.yaml --out out");
+    EXPECT_EQ(end.status, 2) << end.out;
+    EXPECT_THAT(end.err, HasSubstr(words));
+    const auto flights = folder.json("out/batch.json")["flights"];
+    EXPECT_EQ(flights[0]["passed"], true);
+    EXPECT_EQ(flights[1]["id"], "plug/bad");
+  }
+}
+
+TEST_F(Plugin, ErrorsOfItsParametersHaveTheLineOfTheCampaign) {
+  folder.write("board.yaml",
+               "tuned_on: none\nflights:\n  - scenario: tiny.yaml\n    seeds: 1\n    set:\n      - "
+               "\"avoidance={plugin: " HEDGEHOP_MISBEHAVING ", module: misbehaving, parameters: {sped: 1}}\"\n");
+  for (const char* command : {"validate board.yaml", "batch board.yaml --out out"}) {
+    const CommandEnd end = folder.hedgehop(command);
+    EXPECT_EQ(end.status, 2) << command;
+    EXPECT_THAT(end.err, HasSubstr("board.yaml:6:9: unknown key 'sped' in 'avoidance.parameters'"));
+  }
+}
+
 TEST_F(Plugin, OneThatFailsFailsItsFlightWithTheCauseAndKeepsTheFlownPart) {
   const std::pair<std::string, std::string> ways[] = {{"raise_exception", "no idea"},
                                                       {"segfault", "'misbehaving' crashed (Segmentation fault)"},
