@@ -88,6 +88,7 @@ void count(const FlightRecord& record, GroupSummary& group) {
   group.reached += outcome == Outcome::reached ? 1 : 0;
   group.collided += outcome == Outcome::collided ? 1 : 0;
   group.timeout += outcome == Outcome::timeout ? 1 : 0;
+  group.completed += outcome == Outcome::timeout && !record.result->flight.goal_distance_m ? 1 : 0;
   group.fault += verdict == Verdict::fault ? 1 : 0;
 }
 

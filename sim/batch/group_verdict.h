@@ -13,6 +13,7 @@ namespace hedgehop::sim {
 struct GroupSummary {
   std::string group;
   int64_t flights = 0, reached = 0, collided = 0, timeout = 0, fault = 0, failed = 0, missing = 0;
+  int64_t completed = 0;  ///< of the timeouts: without a goal, which is a normal end
   int64_t unchecked = 0;  ///< flown without any check: neither a success nor a trial
   Count success;          ///< flights whose checks all hold, of those that ended; a refused order is no trial
   double min_clearance_m = 0.0, median_clearance_m = 0.0;  ///< to obstacles; NaN without a flight

@@ -220,7 +220,7 @@ Suite flight_suite(const FlightRecord& record, bool binding, const Attachments& 
     suite.properties.emplace_back("renderer", renderer_words(record.result->flight.libraries));
     suite.properties.emplace_back("libraries", library_words(record.result->flight.libraries));
   }
-  std::string facts = fmt::format("{}{}\n{}", outcome_words(record), because, again);
+  std::string facts = fmt::format("{}{}\n{}", shown_outcome(record), because, again);
   if (!order.fault.empty()) facts = fmt::format("{}\n{}", order.fault, fmt::join(order.more_faults, "\n"));
   if (record.result && record.result->flight.goal_missed_unchecked)
     facts += fmt::format("\nwarning: {}", kGoalMissedUnchecked);

@@ -82,6 +82,12 @@ std::string shown_outcome(Outcome outcome, bool has_goal) {
   return outcome == Outcome::timeout && !has_goal ? "completed" : std::string(to_string(outcome));
 }
 
+std::string shown_outcome(const FlightRecord& record) {
+  if (record.status != FlightRecord::Status::flown) return outcome_words(record);
+  const FlightResult& flight = record.result->flight;
+  return shown_outcome(flight.outcome, flight.goal_distance_m.has_value());
+}
+
 std::string build_of(const FlightRecord& record) { return record.result ? record.result->info.build : ""; }
 
 std::vector<std::string> truth_used(const FlightRecord& record) {

@@ -67,6 +67,8 @@ std::string outcome_words(const FlightRecord& record);
 
 /// Returns the outcome for pages and the terminal: "completed" for a timeout without a goal, which is a normal end.
 std::string shown_outcome(Outcome outcome, bool has_goal);
+/// As above, of a record: "failed" or "missing" without a result. The record has its whole result.
+std::string shown_outcome(const FlightRecord& record);
 
 /// The identity of the build that flew it, as its result names it; "" when it has none.
 std::string build_of(const FlightRecord& record);

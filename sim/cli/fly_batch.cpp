@@ -118,13 +118,13 @@ int exit_status(Standing verdict) {
   return kFails;
 }
 
-void show(CampaignProgress& progress, const EndedFlight& ended) {
+void show(CampaignProgress& progress, const EndedFlight& ended, bool passed) {
   const Verdict verdict = verdict_of(ended.record);
-  const std::string words = verdict == Verdict::unchecked
-                                ? fmt::format("{}, {}", outcome_words(ended.record), kNoChecks)
-                            : verdict == Verdict::passed ? outcome_words(ended.record)
-                                                         : failure_words(ended.record);
-  progress.add(ended.record.order.id, words, holds(verdict), ended.reused);
+  const std::string outcome = shown_outcome(ended.record);
+  const std::string words = verdict == Verdict::unchecked ? fmt::format("{}, {}", outcome, kNoChecks)
+                            : verdict == Verdict::passed  ? fmt::format("passed, {}", outcome)
+                                                          : failure_words(ended.record);
+  progress.add(ended.record.order.id, words, passed, ended.reused);
 }
 
 /// Flies the orders, each group until the stopping rule has decided it.
@@ -133,7 +133,7 @@ std::vector<FlightRecord> fly(const BatchRun& run, std::optional<SequentialCount
   CampaignProgress progress(orders.size());
   OrderFlights flights(orders, run.fly, run.reuse, interruption);
   while (const std::optional<EndedFlight> ended = flights.next()) {
-    show(progress, *ended);
+    show(progress, *ended, holds(verdict_of(ended->record)));
     if (!count || !count->ended(ended->record)) continue;
     for (const Order& order : orders) {
       if (count->discarded(order)) flights.drop(order);
@@ -192,9 +192,7 @@ std::vector<FlightRecord> fly_shown(const std::vector<Order>& orders, const FlyO
                                     Interruption& interruption, CampaignProgress& progress) {
   OrderFlights flights(orders, options, Reuse::all, interruption);
   while (const std::optional<EndedFlight> ended = flights.next()) {
-    const Verdict verdict = verdict_of(ended->record);
-    progress.add(ended->record.order.id, holds(verdict) ? outcome_words(ended->record) : failure_words(ended->record),
-                 verdict != Verdict::not_flown, ended->reused);
+    show(progress, *ended, verdict_of(ended->record) != Verdict::not_flown);
   }
   return flights.take_records();
 }

@@ -70,10 +70,10 @@ std::string group_line(const GroupSummary& g, const BatchOutcome& outcome) {
   } else if (g.unchecked > 0) {
     success += fmt::format("; {} of {}", kNoChecks, g.unchecked);
   }
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(g.group), g.flights,
-                     success, g.reached, g.collided, g.timeout, g.fault + g.failed, g.missing,
-                     group_figure(g.min_clearance_m, 2), group_figure(g.median_clearance_m, 2),
-                     group_figure(g.median_time_s, 0));
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(g.group),
+                     g.flights, success, g.reached, g.completed, g.collided, g.timeout - g.completed,
+                     g.fault + g.failed, g.missing, group_figure(g.min_clearance_m, 2),
+                     group_figure(g.median_clearance_m, 2), group_figure(g.median_time_s, 0));
 }
 
 }  // namespace
@@ -121,12 +121,13 @@ std::string batch_json(const BatchOutcome& outcome, const std::string& version) 
 
 std::string summary_text(const BatchOutcome& outcome) {
   const std::vector<FlightRecord>& records = outcome.records;
-  std::string text = mixture_words(records) + truth_words(records) +
-                     fmt::format(
-                         "| scenario | flights | passed | 95 % interval{} | reached | collided | timeout | fault | "
-                         "missing | minimum clearance, m | median minimum clearance, m | median time, s "
-                         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-                         outcome.sequential.empty() ? "" : " at any time");
+  std::string text =
+      mixture_words(records) + truth_words(records) +
+      fmt::format(
+          "| scenario | flights | passed | 95 % interval{} | reached | completed | collided | timeout | fault | "
+          "missing | minimum clearance, m | median minimum clearance, m | median time, s "
+          "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+          outcome.sequential.empty() ? "" : " at any time");
   for (const GroupSummary& group : summarize(records)) text += group_line(group, outcome);
   for (const FlightRecord& record : records) {
     if (record.status == FlightRecord::Status::missing || holds(verdict_of(record))) continue;
@@ -151,7 +152,7 @@ std::string failure_words(const FlightRecord& record) {
   if (verdict == Verdict::unchecked) return std::string(kNoChecks);
   if (verdict == Verdict::not_flown) return record.cause;
   const FlightResult& result = record.result->flight;
-  std::string words(to_string(result.outcome));
+  std::string words = shown_outcome(record);
   if (!result.cause.empty()) words += " (" + result.cause + ")";
   for (const CheckResult& check : result.checks) {
     if (check.passed) continue;

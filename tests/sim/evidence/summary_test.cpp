@@ -33,5 +33,18 @@ TEST(FailureWords, KeepTheCauseOfACheckApartFromTheNextCheck) {
             "min_clearance 0.4 m, must be >= 0.5 m");
 }
 
+TEST(Summary, TimeoutWithoutAGoalIsCompleted) {
+  FlightRecord free{.order = {.id = "a/seed1", .group = "a"}, .status = FlightRecord::Status::flown};
+  free.result.emplace().flight.outcome = Outcome::timeout;
+  free.result->flight.checks = {{.name = "no_collision", .passed = false}};
+  FlightRecord late = free;
+  late.order = {.id = "a/seed2", .group = "a"};
+  late.result->flight.goal_distance_m = 3.0;
+  EXPECT_THAT(
+      summary_text({.records = {free, late}}),
+      testing::AllOf(HasSubstr("| reached | completed | collided | timeout |"), HasSubstr(" | 0 | 1 | 0 | 1 | 0 | "),
+                     HasSubstr("a/seed1: completed"), HasSubstr("a/seed2: timeout")));
+}
+
 }  // namespace
 }  // namespace hedgehop::sim
