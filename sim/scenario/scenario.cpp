@@ -10,6 +10,7 @@
 #include "sim/config/outline_texts.h"
 #include "sim/config/reader.h"
 #include "sim/libm/random.h"
+#include "sim/scenario/file_kind.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/scenario/validate.h"
 
@@ -108,26 +109,12 @@ void resolve_files(std::vector<CheckConfig>& checks, const Node& root, const std
 
 /// Refuses a file of another kind by one error that names the kind, instead of an error per key.
 void require_scenario(const Node& root, ErrorList& errors) {
-  struct FileKind {
-    std::string_view key, description;  ///< a key of every file of the kind, and of no scenario
-  };
-  static constexpr FileKind kKinds[] = {
-      {"question", "a plan, for `hedgehop batch --plan`"},
-      {"rows", "a paper, for `hedgehop reproduce`"},
-      {"flights", "a campaign, for `hedgehop batch`"},
-      {"leaderboard", "a campaign, for `hedgehop batch`"},
-      {"parameters", "a sweep or a search, for `hedgehop sweep` or `hedgehop falsify`"},
-      {"mass", "a vehicle; a scenario names it: vehicle: {use: FILE}"},
-      {"cameras", "a rig; a scenario names it: rig: {use: FILE}"},
-      {"stereo", "a rig; a scenario names it: rig: {use: FILE}"},
-      {"module", "a module's parameters; a scenario names them: avoidance: {use: FILE}"}};
   if (root.incomplete) errors.throw_if_any();  // the missing file may have the keys of its kind
   for (const std::string_view key : {"scene", "vehicle", "start", "avoidance"}) {
     if (root.find(key)) return;
   }
-  for (const auto& [key, description] : kKinds) {
-    if (!root.find(key)) continue;
-    errors.add(root.position, fmt::format("is not a scenario but {}", description));
+  if (const std::string kind = file_kind(root); !kind.empty()) {
+    errors.add(root.position, "is not a scenario but " + kind);
     errors.throw_if_any();
   }
   errors.add(root.position,

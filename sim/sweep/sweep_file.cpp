@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "sim/batch/flight_table.h"
@@ -12,6 +13,7 @@
 #include "sim/config/include.h"
 #include "sim/config/outline_texts.h"
 #include "sim/config/reader.h"
+#include "sim/scenario/file_kind.h"
 #include "sim/scenario/flight_parts.h"
 #include "sim/sweep/design.h"
 #include "sim/sweep/sampling.h"
@@ -108,13 +110,46 @@ Scenario base_scenario(const SweepConfig& sweep, const Node& root) {
   try {
     return load_scenario(sweep.scenario, sweep.set);
   } catch (const InputError& error) {
-    if (refused_parameters(sweep).empty()) {  // a parameter completes the scenario
+    const std::vector<std::string> refused = refused_parameters(sweep);
+    if (refused.empty()) {  // a parameter completes the scenario
       std::vector<std::string> overrides = sweep.set;
       overrides.push_back(sweep.parameters[0].path + "=" + parameter_value(sweep.parameters[0], 0.0));
       return load_scenario(sweep.scenario, overrides);
     }
     std::vector<std::string> lines;
     for (const std::string& fault : error.errors()) lines.push_back(at_parameter(sweep, fault));
+    const auto of_scenario = [&](const std::string& text) {
+      const auto is_same = [&](const std::string& fault) { return text.ends_with(fault); };
+      return std::ranges::any_of(error.errors(), is_same) || std::ranges::any_of(lines, is_same);
+    };
+    std::ranges::remove_copy_if(refused, std::back_inserter(lines), of_scenario);
+    throw InputError(lines);
+  }
+}
+
+/// Refuses a file of another kind by one error that names the kind.
+void require_sweep(const Node& root, ErrorList& faults) {
+  if (root.incomplete) faults.throw_if_any();  // the missing file may have the keys of its kind
+  const std::string kind = file_kind(root);
+  if (kind.empty()) return;
+  faults.add(root.position, "is not a sweep but " + kind);
+  faults.throw_if_any();
+}
+
+/// Throws the faults of the file, if any, with those of its overrides.
+void throw_with_scenario(const SweepConfig& sweep, const ErrorList& faults) {
+  try {
+    faults.throw_if_any();
+  } catch (const InputError& error) {
+    std::vector<std::string> lines = error.errors();
+    try {
+      load_scenario(sweep.scenario, sweep.set);
+    } catch (const InputError& more) {
+      for (const std::string& fault : more.errors()) {
+        const std::string moved = at_parameter(sweep, fault);
+        if (moved != fault) lines.push_back(moved);
+      }
+    }
     throw InputError(lines);
   }
 }
@@ -136,21 +171,25 @@ ConfigOutline SweepValue::outlined(const fields::Field& field) const {
 
 SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   ErrorList faults("sweep");
-  const Node root = load_tree(file, faults);
+  Node root = load_tree(file, faults);
   SweepConfig sweep;
-  if (const Node* design = root.find("design"); design && design->kind == Node::Kind::scalar) {
+  if (!root.find("parameters")) require_sweep(root, faults);
+  if (Node* design = root.find("design"); design && design->kind == Node::Kind::scalar) {
     faults.add(design->position,
                fmt::format("'design' expects a map of keys, such as {{type: {0}}}, got '{0}'", design->text));
-    faults.throw_if_any();
+    Node map;
+    map.kind = Node::Kind::map;
+    map.position = design->position;
+    map.entries.push_back({"type", design->position, *design});
+    *design = std::move(map);
   }
+  const size_t faults_before = faults.count();
   if (root.kind == Node::Kind::map) read_struct(root, "", "", sweep, faults);
-  faults.throw_if_any();
-
-  inspect_parameters(sweep, root, faults);
-  inspect_seeds(sweep, root, faults);
-  faults.throw_if_any();
-  inspect_design(sweep, root, faults);
-  faults.throw_if_any();
+  if (faults.count() == faults_before) {
+    inspect_parameters(sweep, root, faults);
+    inspect_seeds(sweep, root, faults);
+    if (faults.empty()) inspect_design(sweep, root, faults);
+  }
   sweep.file = file;
   sweep.scenario = (file.parent_path() / sweep.scenario).lexically_normal().string();
   sweep.design_position = position_of(root, "design");
@@ -161,6 +200,7 @@ SweepConfig read_sweep(const std::filesystem::path& file, const std::vector<std:
     sweep.set_positions.push_back(position_of(root, fmt::format("set.{}", i)));
   }
   sweep.set = with_module_paths(sweep.set, file.parent_path());
+  throw_with_scenario(sweep, faults);
   for (const std::string& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
     if (std::ranges::find(sweep.parameters, key, &SweepParameter::path) != sweep.parameters.end())

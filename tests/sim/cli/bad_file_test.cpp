@@ -97,6 +97,16 @@ TEST_F(BadFile, NamesTheKindOfAFileOfAnotherKind) {
   }
 }
 
+TEST_F(BadFile, SweepNamesTheKindOfAFileOfAnotherKind) {
+  for (const auto& [file, kind] : std::map<std::string, std::string>{
+           {HEDGEHOP_SOURCE_DIR "/configs/vehicles/s900.yaml", "a vehicle"}, {"tiny.yaml", "a scenario"}}) {
+    const CommandEnd end = folder.hedgehop("sweep " + file + " --out out");
+    EXPECT_EQ(end.status, kBadInput);
+    EXPECT_THAT(end.err, HasSubstr("is not a sweep but " + kind)) << end.err;
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 1) << end.err;
+  }
+}
+
 TEST_F(BadFile, ListsTheKindsOfFilesIfItIsOfNone) {
   folder.write("runs.yaml", "description: a wrong word\nruns: [{scenario: tiny.yaml, seeds: 1:3}]\n");
   const CommandEnd end = run("runs.yaml");

@@ -113,6 +113,23 @@ TEST_F(Sweep, RejectsUnknownPathsBeforeAnyFlightWithTheNearestKey) {
   EXPECT_THAT(folder.hedgehop("sweep bad.yaml --out out").err, HasSubstr("bad.yaml:2:8: seeds '1:3' are not all of"));
 }
 
+TEST_F(Sweep, ListsTheFaultsOfItsFileItsOverridesAndItsParametersTogether) {
+  const auto lines = [&](const std::string& rest) {
+    folder.write("bad.yaml", "scenario: tiny.yaml\nset: [drawing.contxt=tiles]\n" + rest);
+    const CommandEnd end = folder.hedgehop("sweep bad.yaml --out out");
+    EXPECT_EQ(end.status, 2);
+    EXPECT_THAT(end.err, HasSubstr("bad.yaml:2:7: unknown key 'contxt'"));
+    EXPECT_EQ(std::ranges::count(end.err, '\n'), 2) << end.err;
+    return end.err;
+  };
+  EXPECT_THAT(lines("parameters:\n  - {path: avoidance.sped, values: [1, 2]}\n"),
+              HasSubstr("bad.yaml:4:12: unknown key"));
+  EXPECT_THAT(lines("design: grid\nparameters:\n  - {path: avoidance.speed, values: [1, 2]}\n"),
+              HasSubstr("bad.yaml:3:9: 'design' expects a map of keys, such as {type: grid}"));
+  EXPECT_THAT(lines("parameters:\n  - {path: avoidance.speed, from: 1, to: 2}\n"),
+              HasSubstr("bad.yaml:4:5: 'avoidance.speed': a grid needs 'count' >= 2"));
+}
+
 /// The maximum allowed speed brings the vehicle closest to the goal within one second.
 TEST_F(Sweep, OptimizerFindsTheEndOfAMonotoneCost) {
   folder.write("best.yaml",

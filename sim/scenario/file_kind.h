@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace hedgehop::sim {
+
+struct Node;
+
+/// Returns the kind of a file by its keys, with its use: "a vehicle; a scenario names it: vehicle: {use: FILE}"; "" if
+/// it is of no known kind.
+std::string file_kind(const Node& root);
+
+}  // namespace hedgehop::sim
