@@ -97,8 +97,9 @@ CheckResult evaluate_path(const PathToleranceCheck& check, const Flight& flight,
   CheckResult result = compare(check, reference, flight);
   const bool other = reference.seed != seed || reference.version != version();
   if (!result.passed && other && !reference.version.empty()) {  // a table by hand has no version
-    result.cause += fmt::format("{}(reference: seed {}, version {})", result.cause.empty() ? "" : " ", reference.seed,
-                                reference.version);
+    const std::string own = reference.version == version() ? "" : fmt::format("; this is {}", version());
+    result.cause += fmt::format("{}(reference: seed {}, version {}{})", result.cause.empty() ? "" : " ", reference.seed,
+                                reference.version, own);
   }
   return result;
 }

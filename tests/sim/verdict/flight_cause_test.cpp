@@ -172,6 +172,10 @@ TEST(CheckCause, OfAPathIsThePlaceAndTimeAtWhichTheFlightLeftIt) {
             "13 m at 30.00 s, must be <= 1 m: left the reference at 6.10 s, north 2.0 m, east 0.0 m, altitude 10.0 m");
   EXPECT_THAT(check_words(evaluate_path(check, f.flight, 4)),
               EndsWith(fmt::format("altitude 10.0 m (reference: seed 3, version {})", version())));
+  reference.version = "0.1.0";
+  write_file_whole(folder.path() / "path.csv", reference_text(reference));
+  EXPECT_THAT(check_words(evaluate_path(check, f.flight, 3)),
+              EndsWith(fmt::format("(reference: seed 3, version 0.1.0; this is {})", version())));
   f.flight.trajectory.resize(101);
   f.flight.result.outcome = Outcome::timeout;
   EXPECT_THAT(check_words(evaluate_path(check, f.flight, 3)),
