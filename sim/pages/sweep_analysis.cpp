@@ -61,6 +61,7 @@ std::vector<PointFigure> point_figures(const FlightList& flights, const SweepTab
       const Verdict verdict = verdict_of(flights.records[row]);
       figure.passed += verdict == Verdict::passed ? 1 : 0;
       figure.unchecked += verdict == Verdict::unchecked ? 1 : 0;
+      figure.missing += flights.records[row].status == FlightRecord::Status::missing ? 1 : 0;
     }
     const auto n = static_cast<double>(rows.size());
     if (std::isnan(figure.mean)) continue;

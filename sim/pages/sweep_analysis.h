@@ -16,6 +16,7 @@ struct PointFigure {
   double low = 0.0, high = 0.0;  ///< 95 % interval over the seeds: Student, or Wilson of `passed`; NaN for one seed
   size_t passed = 0, flights = 0;
   size_t unchecked = 0;  ///< flights without checks
+  size_t missing = 0;    ///< flights not flown
 
   /// Whether no flight failed. Flights without checks count as passed for the order only.
   bool none_failed() const { return passed + unchecked == flights; }

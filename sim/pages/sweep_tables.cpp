@@ -44,11 +44,13 @@ std::string latex_value(const std::string& value) {
   return parse_number(value, false).kind == ParsedNumber::Kind::number ? with_minus(value) : latex(value);
 }
 
-/// Returns "2 of 3" with the number of flights without checks, or "no checks".
+/// Returns "2 of 3" with the numbers of flights without checks and not flown, or "no checks", "not flown".
 std::string passed_words(const PointFigure& figure) {
+  if (figure.missing == figure.flights) return "not flown";
   if (figure.unchecked == figure.flights) return std::string(kNoChecks);
-  const std::string words = fmt::format("{} of {}", figure.passed, figure.flights);
-  return figure.unchecked == 0 ? words : fmt::format("{}; {}: {}", words, kNoChecks, figure.unchecked);
+  std::string words = fmt::format("{} of {}", figure.passed, figure.flights);
+  if (figure.unchecked > 0) words += fmt::format("; {}: {}", kNoChecks, figure.unchecked);
+  return figure.missing == 0 ? words : fmt::format("{}; not flown: {}", words, figure.missing);
 }
 
 /// @param words  number of first columns, which are aligned to the left.

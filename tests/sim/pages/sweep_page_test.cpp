@@ -8,6 +8,7 @@
 #include "sim/pages/sweep_tables.h"
 #include "tests/sim/batch/campaign_folder.h"
 #include "tests/sim/pages/browser.h"
+#include "tests/sim/pages/made_up_sweep.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -190,6 +191,23 @@ TEST(SweepInBrowser, OpensWithTheBestPointAndFollowsTheColumn) {
     EXPECT_NEAR(page.value.at("cell").get<double>(), 3.15, 1e-9);
     EXPECT_NEAR(page.value.at("figure").at("high").get<double>(), 3.15 + 12.706 * 0.05, 1e-3);
   }
+}
+
+TEST(SweepInBrowser, ShowsPointsNotFlownAsSuch) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder folder;
+  auto records = made_up(3, 13);
+  records[2].status = FlightRecord::Status::missing;
+  records[2].result.reset();
+  write_sweep(folder.path(), records);
+  write_campaign_report(folder.path(), {});
+  const PageVisit page = visit(folder.path() / "report.html", R"js(
+    const card = document.getElementById('answer-card'), last = [...card.querySelectorAll('tbody tr')].at(-1).lastElementChild;
+    return [last.textContent, last.className, card.querySelector('.answer').textContent];)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  EXPECT_EQ(page.value[0], "not flown");
+  EXPECT_EQ(page.value[1], "number");
+  EXPECT_THAT(page.value[2].get<std::string>(), HasSubstr("best of 2 flown of 3 points"));
 }
 
 /// The second point of the three that were tried is the best; the third has a failed flight.

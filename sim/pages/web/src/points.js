@@ -19,7 +19,7 @@ class SweepPoints {
     }
     for (const point of this.points) {
       const count = (verdict) => point.rows.filter((row) => table.verdict(row) === verdict).length;
-      Object.assign(point, {passed: count('passed'), unchecked: count('unchecked')});
+      Object.assign(point, {passed: count('passed'), unchecked: count('unchecked'), missing: count('missing')});
     }
     const names = [...table.columns.keys()], first = names.indexOf('status');
     this.columns = names.slice(first).map((name) => table.columns.get(name))
@@ -52,10 +52,10 @@ class SweepPoints {
   /** 'more' or 'less', as it is better. */
   better(name) { return this.sweep.more_is_better.includes(name) ? 'more' : 'less'; }
 
-  /** Indices of the points, the best first: points without failed flights, then the mean, then the clearance. */
+  /** Indices of the points, the best first: points that were flown, points without failed flights, then the mean, then the clearance. */
   ranking({column, less, passedFirst}) {
     const figures = this.of(column), clearance = this.has('min_obstacle_clearance_m') ? this.of('min_obstacle_clearance_m') : null;
-    const failing = (point) => passedFirst && !noneFailed(point) ? 1 : 0;
+    const failing = (point) => point.missing === point.rows.length ? 2 : passedFirst && !noneFailed(point) ? 1 : 0;
     const cost = (i) => figures[i].mean === null ? Infinity : less ? figures[i].mean : -figures[i].mean;
     const close = (i) => clearance?.[i].mean ?? 0;
     return [...this.points.keys()].sort((a, b) => failing(this.points[a]) - failing(this.points[b]) ||
@@ -75,12 +75,14 @@ class SweepPoints {
     return command.replace(/^hedgehop run /, 'hedgehop batch ').replace(/ --seed \S+/, ` --seeds ${seeds}`);
   }
 }
-/** Whether no flight of a point failed. Flights without checks count as passed for the order only. */
-function noneFailed({passed, unchecked, rows}) { return passed + unchecked === rows.length; }
-/** "2 of 3", with the noun "2 of 3 flights passed", and the number of flights without checks; or "no checks". */
-function passedWords({passed, unchecked, rows}, noun = '') {
+/** Whether no flight of a point failed. Flights without checks and flights not flown count as passed for the order only. */
+function noneFailed({passed, unchecked, missing, rows}) { return passed + unchecked + missing === rows.length; }
+/** "2 of 3", with the noun "2 of 3 flights passed", and the numbers of flights without checks and not flown; or "no checks", "not flown". */
+function passedWords({passed, unchecked, missing, rows}, noun = '') {
+  if (missing === rows.length) return 'not flown';
   if (unchecked === rows.length) return 'no checks';
-  return `${passed} of ${noun ? countOf(rows.length, noun) + ' passed' : rows.length}` + (unchecked ? `; no checks: ${unchecked}` : '');
+  return `${passed} of ${noun ? countOf(rows.length, noun) + ' passed' : rows.length}` + (unchecked ? `; no checks: ${unchecked}` : '')
+    + (missing ? `; not flown: ${missing}` : '');
 }
 /** The 95 % score interval of a rate, [Wilson1927] p. 212. */
 function wilsonInterval(rate, n) {

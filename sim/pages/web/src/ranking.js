@@ -53,9 +53,11 @@ class RankingView {
     addCommand(this.answer, points.command(best));
     this.drawList();
   }
-  /** "best of 9 points", or the number of points with an equal mean. */
+  /** "best of 9 points", "best of 2 flown of 9 points", or the number of points with an equal mean. */
   tieWords() {
-    const {points, order, best} = this, figures = points.of(this.choice.column), count = countOf(points.points.length, 'point');
+    const {points, order, best} = this, figures = points.of(this.choice.column), all = points.points.length;
+    const flown = points.points.filter(({missing, rows}) => missing < rows.length).length;
+    const count = (flown < all ? `${flown} flown of ` : '') + countOf(all, 'point');
     const failing = (i) => this.choice.passedFirst && !noneFailed(points.points[i]);
     const ties = order.filter((i) => figures[i].mean === figures[best].mean && failing(i) === failing(best)).length;
     return ties === 1 ? `best of ${count}` : `${ties} of ${count} share this best mean, ordered by minimum clearance`;
