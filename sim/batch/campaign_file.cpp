@@ -144,6 +144,8 @@ class Gatherer {
       add_flights(campaign.flights, file.parent_path());
       if (campaign.leaderboard) add_leaderboard(file.parent_path(), *campaign.leaderboard);
       if (campaign.plan) batch_.plan = (file.parent_path() / *campaign.plan).lexically_normal();
+      if (!campaign.description.empty())
+        batch_.description += (batch_.description.empty() ? "" : "; ") + campaign.description;
       if (campaign.tuned_on) batch_.tuned_on += (batch_.tuned_on.empty() ? "" : ", ") + *campaign.tuned_on;
       for (CampaignCheck& check : campaign.checks) {
         if (auto* no_worse = std::get_if<NoWorseCheck>(&check))
@@ -209,9 +211,9 @@ class Gatherer {
 
   const std::vector<uint64_t>& seeds_;
   const std::vector<std::string>& overrides_;
+  const OrderCheck& check_;
   BatchOrders batch_;
   OverridePositions positions_;                                         ///< of the last campaign
-  const OrderCheck& check_;
   std::map<std::string, std::pair<std::string, std::string>> folders_;  ///< file and overrides: group and folder
   std::map<std::string, int> taken_;
   std::set<std::string> ids_;

@@ -168,6 +168,7 @@ struct BatchOrders {
   std::vector<CampaignCheck> checks;
   std::optional<Leaderboard> leaderboard;
   std::optional<std::filesystem::path> plan;  ///< file of the last plan that an input names
+  std::string description;                    ///< of the campaigns
   std::string tuned_on;                       ///< seeds of the tuning as stated by the files; "" if not stated
   std::vector<std::string> faults;            ///< one line each; the order of a bad file carries its faults
   std::vector<std::string> left_out;          ///< one line for each folder of which files are left out

@@ -34,6 +34,7 @@ void recall_conduct(const OrderedJson& conduct, BatchOrders& batch) {
     throw InputError(fmt::format("flown until '{}' was decided; repeat that command with --resume",
                                  conduct.at("rule").get<std::string>()));
   }
+  batch.description = conduct.value("description", "");
   if (const auto& tuned_on = conduct.at("tuned_on"); tuned_on.is_string()) batch.tuned_on = tuned_on.get<std::string>();
   if (const auto& plan = conduct.at("plan"); plan.is_object())
     batch.plan = raw_name(plan.at("file").get<std::string>());

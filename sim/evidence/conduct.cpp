@@ -149,7 +149,10 @@ Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& 
                    const std::optional<StoppingRule>& rule, double limit_s) {
   std::vector<Order> orders;
   std::ranges::remove_copy_if(batch.orders, std::back_inserter(orders), is_refused);
-  Conduct conduct{.planned = static_cast<int64_t>(orders.size()), .tuned_on = batch.tuned_on, .rule = rule};
+  Conduct conduct{.description = batch.description,
+                  .planned = static_cast<int64_t>(orders.size()),
+                  .tuned_on = batch.tuned_on,
+                  .rule = rule};
   conduct.checks = batch.checks;
   std::vector<uint64_t> seeds;
   for (const Order& order : orders) seeds.push_back(order.seed);
@@ -167,6 +170,7 @@ Conduct conduct_of(const BatchOrders& batch, const std::optional<Registration>& 
 Json to_json(const Conduct& conduct) {
   const auto text = [](const std::string& words) { return words.empty() ? Json(nullptr) : Json(words); };
   Json json{{"planned", conduct.planned}, {"seeds", conduct.seeds}, {"tuned_on", text(conduct.tuned_on)}};
+  if (!conduct.description.empty()) json["description"] = conduct.description;
   json["settings_tried"] = conduct.settings_tried ? Json(*conduct.settings_tried) : Json(nullptr);
   json["rule"] = nullptr;
   if (conduct.rule) {

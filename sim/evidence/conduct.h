@@ -90,6 +90,7 @@ std::vector<std::string> deviations(const Registration& plan, const std::vector<
 
 /// How a batch was planned and flown, which a reader needs to interpret a rate.
 struct Conduct {
+  std::string description;      ///< of the campaigns; "" if not stated
   int64_t planned = 0;          ///< flights
   std::string seeds, tuned_on;  ///< flown seeds, and seeds of the tuning; "" if not stated
   std::optional<int64_t> settings_tried;

@@ -33,7 +33,8 @@ class LeaderboardFolder : public CampaignFolder {
                                 "}\nchecks: [{check: reached_goal}, {check: no_collision}]\n");
     }
     write("board.yaml",
-          "tuned_on: none\nleaderboard:\n  seeds: 1:2\n  worlds: [{name: far, scenario: far.yaml}, {name: near, "
+          "description: three speeds\ntuned_on: none\nleaderboard:\n  seeds: 1:2\n  worlds: [{name: far, scenario: "
+          "far.yaml}, {name: near, "
           "scenario: near.yaml}]\n"
           "  modules:\n    - {name: still, control: true, set: [avoidance.speed=0.01]}\n"
           "    - {name: fast, set: [avoidance.speed=2]}\n    - {name: slow, set: [avoidance.speed=0.1]}\n"
@@ -120,12 +121,15 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
     }
     const key = [...document.querySelectorAll('#collisions-card .plan-key span')].map((e) => e.textContent);
     const head = [...document.querySelectorAll('#head .tile .name, #head strong')].map((e) => e.textContent);
+    const paths = [...document.querySelectorAll('#paths .plan-key span')].map((e) => e.textContent);
+    const scene = document.querySelector('#scene').selectedOptions[0].textContent;
     const claims = document.getElementById('claims-card').textContent, text = document.getElementById('head').textContent;
-    return {head, claims, text, plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
+    return {head, claims, text, paths, scene, plots, key, tips: [...tips].join(), rows, why: document.querySelector('#board-card > p:last-child').textContent, shown: [...document.querySelectorAll('#flights tbody td:first-child')].map((e) => e.textContent)};)js");
   EXPECT_THAT(page.errors, testing::IsEmpty());
   EXPECT_EQ(page.value.at("head"), Json::array({"4 of 6 did not pass", "fast", "slow", "still (control)"}));
   EXPECT_THAT(page.value.at("text").get<std::string>(),
-              AllOf(HasSubstr("; without the control"), HasSubstr("10 flights, 4 of them of the control")));
+              AllOf(HasSubstr("three speeds"), HasSubstr("; without the control"),
+                    HasSubstr("10 flights, 4 of them of the control")));
   EXPECT_THAT(page.value.at("claims").get<std::string>(),
               HasSubstr("Without the control: 6 planned, 6 counted, 2 passed, 4 failed a check"));
   ASSERT_EQ(page.value.at("rows").size(), 2u);
@@ -137,6 +141,8 @@ TEST(LeaderboardInBrowser, ShowsEveryCellAndSelectsItsFlights) {
   EXPECT_EQ(page.value.at("key"), Json::array({"still (control)", "fast", "slow, flies in 1 of 2 worlds"}));
   EXPECT_THAT(page.value.at("tips").get<std::string>(), HasSubstr("0 of 4 collided, 95 % interval 0.000 to 0.490"));
   EXPECT_EQ(page.value.at("shown"), Json::array({"near_fast/seed1", "near_fast/seed2"}));
+  EXPECT_EQ(page.value.at("paths")[0], "fast") << "the module, of the flights that the filter leaves";
+  EXPECT_EQ(page.value.at("scene"), "1 of 1: far, near, seeds 1:2, 2 flights");
 }
 
 TEST(LeaderboardInBrowser, FiltersByExactGroupsAndSeeds) {

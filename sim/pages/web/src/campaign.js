@@ -44,6 +44,7 @@ function fillHead(host, data, table) {
   }
   for (const line of data.mixture.split('\n').filter(Boolean)) host.append(make('p', 'bad-text', line));
   host.append(make('h1', '', data.name));
+  if (data.claims.conduct?.description) host.append(make('p', '', data.claims.conduct.description));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
   const control = data.controls.reduce((sum, group) => sum + table.rowsOf(group).length, 0), ofControl = control ? `, ${control} of them of the control` : '';
   host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${countOf(table.count, 'flight')}${ofControl}; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
@@ -218,7 +219,7 @@ function main() {
   const collisions = fillCollisions(host('collisions-card'), data.leaderboard);
   fillStrips(host('strips-card'), data, table, on);
   const flights = new FlightsView(host('flights'), data, table, [...shownAtFirst.slice(0, 2), ...data.swept, ...shownAtFirst.slice(2)], on);
-  const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on);
+  const paths = new PathsView(host('paths'), host('scene'), data.paths, table, on, data.leaderboard);
   const flightPlots = data.sweep ? [] : [new SuccessMap(host('success'), data, table, on), new Scatter(host('scatter'), data, table, on)];
   if (data.sweep) host('success-card').parentElement.remove();
   else host('pareto-card').parentElement.remove();

@@ -2,9 +2,11 @@
 // Paths of all flights of a scene on its map.
 
 class PathsView {
-  /** @param select  element to choose the scene with. @param on  {choose(row)}. */
-  constructor(host, select, {maps, map, path, goal}, table, on) {
+  /** @param select  element to choose the scene with. @param on  {choose(row)}. @param board  a leaderboard, whose modules have a color each. */
+  constructor(host, select, {maps, map, path, goal}, table, on, board = null) {
     Object.assign(this, {host, select, maps, mapOf: map, goals: goal, table, on, chosen: null, near: null});
+    this.modules = board?.modules ?? [];
+    this.moduleOf = new Map(board?.cells.map(({group, module}) => [group, module]));
     this.paths = path.map(readPath);
     this.shown = new Set();
     const counts = this.counts(map.keys());
@@ -55,11 +57,23 @@ class PathsView {
     this.numbers.forEach((number, i) => {
       const count = counts.get(number) ?? 0, first = this.mapOf.indexOf(number);
       const name = `${groupWords(this.table.value('group', first))}, seed ${this.table.seed(first)}`;
-      this.select.options[i].textContent =
-        `${number < 0 ? 'other scenes, not drawn' : number + 1 + ' of ' + this.maps.length}: ${count === 1 ? name : count + ' flights'}`;
+      this.select.options[i].textContent = number < 0 ? `other scenes, not drawn: ${count === 1 ? name : count + ' flights'}`
+        : `${number + 1} of ${this.maps.length}: ${count === 1 ? name : `${this.sceneWords(number)}, ${count} flights`}`;
     });
   }
 
+  /** Returns the scenarios and seeds of a map: "forest, city, seeds 1:3". */
+  sceneWords(number) {
+    const rows = this.paths.map((path, row) => row).filter((row) => this.mapOf[row] === number);
+    const names = [...new Set(rows.map((row) => this.table.value('scenario', row).split('/').at(-1).replace(/\.ya?ml$/, '')))];
+    const seeds = [...new Set(rows.map((row) => this.table.seed(row)))].filter((seed) => /^\d+$/.test(seed)), most = 3;
+    return `${names.slice(0, most).join(', ')}${names.length > most ? ', …' : ''}, seed${seeds.length === 1 ? '' : 's'} ${seedList(seeds)}`;
+  }
+  /** The color of a flight: of its module in a leaderboard, else of its verdict. */
+  colorOf(row) {
+    const module = this.moduleOf.get(this.table.value('group', row)), index = this.modules.findIndex(({name}) => name === module);
+    return index < 0 ? themeColor(verdictColors[this.table.verdict(row)]) : markColor(index, this.modules[index].control);
+  }
   /** Returns the different goals of flights; none if they are too many to be drawn. */
   goalsOf(rows) {
     const goals = new Map(rows.map((row) => [String(this.goals[row]), this.goals[row]]));
@@ -96,9 +110,11 @@ class PathsView {
     // Rare verdicts are drawn last, on top.
     for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
       c.globalAlpha = Math.min(1, Math.max(0.25, 30 / rows.length));
-      c.strokeStyle = themeColor(verdictColors[verdict]);
       const alike = rows.filter((row) => this.table.verdict(row) === verdict);
-      for (const row of alike) this.trace(c, row);
+      for (const row of alike) {
+        c.strokeStyle = this.colorOf(row);
+        this.trace(c, row);
+      }
       c.globalAlpha = 1;
       if (verdict === 'collided') for (const row of alike) this.mark(c, row, rows.length > 100 ? 3 : 5);
     }
@@ -109,7 +125,7 @@ class PathsView {
     this.map.cross(c, this.map.x(e.at(-1)), this.map.y(n.at(-1)), size, themeColor('bad'), 1.5);
   }
   highlight(c, row) {
-    const {map} = this, {n, e} = this.paths[row], color = themeColor(verdictColors[this.table.verdict(row)]);
+    const {map} = this, {n, e} = this.paths[row], color = this.colorOf(row);
     c.strokeStyle = themeColor('plan');
     c.lineWidth = 7;
     this.trace(c, row);
@@ -122,12 +138,22 @@ class PathsView {
   }
 
   drawKey(key) {
-    const present = new Set(this.rows.filter((row) => this.shown.has(row)).map((row) => this.table.verdict(row)));
-    for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
-      if (!present.has(verdict)) continue;
+    const rows = this.rows.filter((row) => this.shown.has(row)), present = new Set(rows.map((row) => this.table.verdict(row)));
+    const add = (color, words) => {
       const item = key.appendChild(make('span'));
-      item.appendChild(make('i')).style.cssText = `background: ${themeColor(verdictColors[verdict])}; height: 3px; vertical-align: 3px`;
-      item.append(verdictWords[verdict]);
+      item.appendChild(make('i')).style.cssText = `background: ${color}; height: 3px; vertical-align: 3px`;
+      item.append(words);
+    };
+    if (this.modules.length) {
+      for (const {name, control} of this.modules) {
+        const row = rows.find((r) => this.moduleOf.get(this.table.value('group', r)) === name);
+        if (row !== undefined) add(this.colorOf(row), name + (control ? ' (control)' : ''));
+      }
+      if (present.has('collided')) key.append(make('span', '', 'cross: collision'));
+      return;
+    }
+    for (const verdict of ['passed', 'unchecked', 'failed', 'collided']) {
+      if (present.has(verdict)) add(themeColor(verdictColors[verdict]), verdictWords[verdict]);
     }
   }
 
