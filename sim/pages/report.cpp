@@ -142,10 +142,17 @@ std::string chosen(const Choice& choice) {
   return std::visit([](const auto& c) { return std::string(std::decay_t<decltype(c)>::kName); }, choice);
 }
 
+/// Returns the name of the module; of a foreign one, that in its library or its class.
+std::string module_name(const AvoidanceConfig& config) {
+  if (const PluginConfig* plugin = config.plugin()) return plugin->module;
+  if (const PythonConfig* script = config.python()) return script->class_name;
+  return std::string(config.name());
+}
+
 ReportScenario describe_scenario(const RunRecord& run) {
   const Scenario& scenario = run.scenario;
   ReportScenario result{.description = scenario.description,
-                        .module = std::string(scenario.avoidance.name()),
+                        .module = module_name(scenario.avoidance),
                         .scene = chosen(scenario.scene),
                         .vehicle = chosen(scenario.vehicle),
                         .yaml = run.scenario_yaml,

@@ -30,7 +30,7 @@ TEST(ReportInBrowser, OpensAsOneFileAndFollowsThePointer) {
     return [document.querySelector('h1').textContent, document.querySelector('#plan .tip').hidden];)js");
   EXPECT_THAT(page.errors, IsEmpty());
   EXPECT_THAT(page.requests, IsEmpty());
-  EXPECT_THAT(page.value, ElementsAre("city </script>", false));
+  EXPECT_THAT(page.value, ElementsAre("city </script> flow_balance", false));
 }
 
 TEST(ReportInBrowser, SupportsKeysAndTextAlternatives) {

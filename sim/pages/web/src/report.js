@@ -13,9 +13,9 @@ function judge({outcome, goal_distance_m}) {
   }
 }
 
-function fillVerdict(host, {result, description, has_replay}) {
+function fillVerdict(host, {result, description, has_replay, module}) {
   const what = host.appendChild(make('div', 'what'));
-  what.append(make('h1', '', result.scenario));
+  what.appendChild(make('h1', '', result.scenario)).append(make('small', 'soft', ` ${module}`));
   if (description) what.append(make('p', '', description));
   what.append(make('p', 'soft', `seed ${result.seed}, Hedgehop ${result.version}, build ${result.build}`));
 
@@ -52,10 +52,10 @@ function fillTiles(host, result) {
   if (result.goal_distance_m !== null) tile('distance to the goal', fixed(result.goal_distance_m, 1), 'm', 'at the end, horizontal');
   const stage = (name, {median, p95}) => {
     const [value, unit = ''] = measured(median, 'ms', 3).split(' ');
-    tile(name, value, unit, `95 % below ${measured(p95, 'ms', 3)}`);
+    tile(name, value, unit, `median; 95 % below ${measured(p95, 'ms', 3)}`);
   };
   stage('decision time', result.decision_ms);
-  stage('rendering', result.render_ms);
+  stage('rendering, per image instant', result.render_ms);
   tile('speed of simulation', short(result.realtime_factor, 3), '× real time', `${measured(result.wall_s, 's', 3)} of wall time`);
 }
 
@@ -79,9 +79,10 @@ function fillChecks(host, {checks, closest_obstacle, closest_ground}) {
   const table = host.appendChild(make('table'));
   addRow(table, [['', ''], ['check', ''], ['value', 'number'], ['must be', 'number'], ['at', 'number']], 'th');
   for (const {name, passed, value, limit, unit, must, t_s, cause} of checks) {
-    const measure = (v) => measured(v, unit, checkFigures(value, limit, unit));
+    const figures = checkFigures(value, limit, unit), measure = (v) => measured(v, unit, figures);
+    const tiny = figures === 4 && Math.abs(value) < 0.01 && (limit === 0 || Math.abs(limit) >= 0.01);
     addRow(table, [[passed ? '✓' : '✕', passed ? 'pass' : 'fail'], [wordsOf(name, unit), ''],
-      [measure(value), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
+      [measured(value, unit, tiny ? 2 : figures), 'number'], [limit === null ? '–' : `${RELATIONS[must] ?? must} ${measure(limit)}`, 'number'],
       [t_s === null || t_s === undefined ? '' : `${fixed(t_s, 2)} s`, 'number']]);
     const closest = [closest_obstacle, closest_ground].find((place) => place?.distance_m === value && place.t_s === t_s);
     if (passed && closest?.what) table.lastChild.children[1].append(make('span', 'soft', ` (${closest.what})`));
