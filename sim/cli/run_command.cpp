@@ -144,10 +144,10 @@ void print_verdict(const Scenario& scenario, const Flight& flight, const std::fi
                result.closest_obstacle.what, result.closest_obstacle.t_s);
   }
   fmt::print(
-      "  {:.2f} times real time: {:.1f} s, physics at {} Hz; per instant of the cameras: drawing {:.1f} ms, deciding "
-      "{:.1f} ms\n",
+      "  {:.2f} times real time: {:.1f} s, physics at {} Hz; median and 95th percentile: drawing {:.1f} and {:.1f} ms "
+      "per image instant, deciding {:.1f} and {:.1f} ms per decision\n",
       result.realtime_factor, result.wall_s, result.physics_rate_hz, result.render_ms.median_ms,
-      result.decision_ms.median_ms);
+      result.render_ms.p95_ms, result.decision_ms.median_ms, result.decision_ms.p95_ms);
   if (const auto& link = result.link) {
     fmt::print("  link: {}, {} packets, of which {} before the flight\n", link->kind, link->frames,
                link->start_tick.value_or(link->frames));

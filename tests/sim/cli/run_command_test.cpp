@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
 
@@ -33,6 +34,13 @@ TEST(RunCommand, RemovesTheFilmOfAnEarlierFlightIfThereAreNoImages) {
   const CommandEnd end = folder.hedgehop("run blind.yaml --out out");
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/video.webm"));
+}
+
+TEST(RunCommand, PrintsBothPercentilesOfWallTimes) {
+  const CampaignFolder folder;
+  EXPECT_THAT(folder.hedgehop("run tiny.yaml --no-video --no-report --out out").out,
+              testing::ContainsRegex("median and 95th percentile: drawing [0-9.]+ and [0-9.]+ ms per image instant, "
+                                     "deciding [0-9.]+ and [0-9.]+ ms per decision\n"));
 }
 
 }  // namespace
