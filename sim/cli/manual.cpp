@@ -79,7 +79,7 @@ struct ExitStatus {
 };
 
 constexpr ExitStatus kExitStatuses[] = {
-    {0, "all checks hold"},
+    {0, "all checks hold, or the best point of an optimizing sweep costs less than its failure_cost"},
     {1, "a check fails, a claim is refuted, or a flight cannot be flown to its end"},
     {2,
      "the input is bad, or the output folder cannot be created: one line per fault on standard error. Only the valid "
