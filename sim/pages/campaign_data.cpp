@@ -104,56 +104,6 @@ std::string first_failed(const FlightRecord& record) {
   return first->name.empty() ? "unknown check" : first->name;  // a table without the flights' own files has no names
 }
 
-/// Returns a key of scenario and seed, which is equal for flights that differ in their settings only.
-std::string twin_key(const FlightRecord& record) {
-  return fmt::format("{}\n{}", record.order.scenario.string(), record.order.seed);
-}
-
-/// Returns for each flight of `now` the flight of `before` with the same id, else the one with the same scenario and
-/// seed if both are unique.
-std::vector<std::optional<size_t>> partners(const std::vector<FlightRecord>& now,
-                                            const std::vector<FlightRecord>& before) {
-  std::map<std::string, size_t> by_id;
-  std::map<std::string, std::vector<size_t>> twins;
-  std::map<std::string, size_t> count;
-  for (size_t i = 0; i < before.size(); ++i) {
-    by_id[before[i].order.id] = i;
-    twins[twin_key(before[i])].push_back(i);
-  }
-  for (const FlightRecord& record : now) ++count[twin_key(record)];
-  std::vector<std::optional<size_t>> found;
-  for (const FlightRecord& record : now) {
-    const auto same = by_id.find(record.order.id);
-    const auto alike = twins.find(twin_key(record));
-    if (same != by_id.end()) {
-      found.emplace_back(same->second);
-    } else if (alike != twins.end() && alike->second.size() == 1 && count.at(alike->first) == 1) {
-      found.emplace_back(alike->second.front());
-    } else {
-      found.emplace_back();
-    }
-  }
-  return found;
-}
-
-Json rate(const Count& count, bool anytime) {
-  const Interval interval = success_interval(count, anytime);
-  return {{"passed", count.successes}, {"ended", count.trials}, {"low", interval.low}, {"high", interval.high}};
-}
-
-Json change_row(const GroupSummary& now, const GroupSummary& before, StoppedByRule stopped) {
-  Json row{{"group", now.group},
-           {"now", rate(now.success, stopped.now)},
-           {"before", rate(before.success, stopped.before)},
-           {"change", nullptr}};
-  // The interval of a change requires numbers of flights that do not depend on the results.
-  if (!stopped.now && !stopped.before && now.success.trials > 0 && before.success.trials > 0) {
-    const Interval change = newcombe_difference(now.success, before.success, kTableConfidence);
-    row["change"] = {now.success.rate() - before.success.rate(), change.low, change.high};
-  }
-  return row;
-}
-
 }  // namespace
 
 std::string unit_of_column(const std::string& name, const std::vector<FlightNotes>& notes) {
@@ -253,44 +203,6 @@ Json groups_data(const std::vector<FlightRecord>& records, bool anytime, const s
     for (const GroupSummary& group : groups) rows.push_back(group_row(group, anytime));
   }
   return rows;
-}
-
-Json against_data(const FlightList& now, const FlightList& before, StoppedByRule stopped) {
-  const auto pairs = partners(now.records, before.records);
-  const std::vector<std::string> commands = before.table.words("command");
-  std::vector<double> goal_distances_m(before.records.size(), NAN);
-  if (before.table.has("goal_distance_m")) goal_distances_m = before.table.numbers("goal_distance_m");
-  Json json{{"flights", Json::array()}, {"groups", Json::array()}, {"gone", Json::array()}, {"no_change", nullptr}};
-  if (stopped.now || stopped.before) {
-    json["no_change"] =
-        "The change has no interval, because flights were stopped depending on their results (--until). Each rate has "
-        "its own 95 % interval.";
-  }
-  for (const std::optional<size_t>& pair : pairs) {
-    if (!pair) {
-      json["flights"].push_back(nullptr);
-      continue;
-    }
-    const FlightRecord& old = before.records[*pair];
-    const bool has_goal = !std::isnan(goal_distances_m[*pair]);
-    Json row{{"outcome", old.result ? shown_outcome(old.result->flight.outcome, has_goal) : outcome_words(old)},
-             {"passed", verdict_of(old) == Verdict::passed},
-             {"command", commands[*pair]}};
-    row["clearance_m"] = old.result ? json_number(old.result->flight.closest_obstacle.distance_m) : Json(nullptr);
-    row["time_s"] = old.result ? json_number(old.result->flight.flight_time_s) : Json(nullptr);
-    json["flights"].push_back(std::move(row));
-  }
-  for (size_t i = 0; i < before.records.size(); ++i) {
-    if (std::ranges::find(pairs, std::optional(i)) == pairs.end()) json["gone"].push_back(before.records[i].order.id);
-  }
-
-  json["groups"].push_back(change_row(all_flights(now.records), all_flights(before.records), stopped));
-  const std::vector<GroupSummary> earlier = summarize(before.records), groups = summarize(now.records);
-  for (const GroupSummary& group : groups) {
-    const auto same = std::ranges::find(earlier, group.group, &GroupSummary::group);
-    if (same != earlier.end() && groups.size() > 1) json["groups"].push_back(change_row(group, *same, stopped));
-  }
-  return json;
 }
 
 }  // namespace hedgehop::sim

@@ -47,16 +47,4 @@ GroupSummary all_flights(std::vector<FlightRecord> records, const std::set<std::
 nlohmann::ordered_json groups_data(const std::vector<FlightRecord>& records, bool anytime,
                                    const std::set<std::string>& controls = {});
 
-/// Which of two campaigns was stopped depending on its results.
-struct StoppedByRule {
-  bool now = false, before = false;
-};
-
-/// Returns the comparison with an earlier campaign: `flights` (one per row of `now`; null if the earlier campaign lacks
-/// the flight), `groups` of equal name with both rates and the 95 % interval of the change, and the ids of removed
-/// flights. Flights are matched by id, else by scenario and seed if these are unique, so that settings can be compared.
-/// With a stopping rule, that campaign's rates have intervals that are valid at any time, and there is no change:
-/// `no_change` has the reason.
-nlohmann::ordered_json against_data(const FlightList& now, const FlightList& before, StoppedByRule stopped = {});
-
 }  // namespace hedgehop::sim

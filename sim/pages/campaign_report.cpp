@@ -14,6 +14,7 @@
 #include "sim/evidence/conduct.h"
 #include "sim/flight/build.h"
 #include "sim/flight/json_file.h"
+#include "sim/pages/campaign_changes.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/pages/flight_maps.h"
 #include "sim/pages/leaderboard_page.h"
@@ -165,6 +166,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
         flights, earlier,
         {.now = has_stopping_rule(data["claims"]["conduct"]), .before = has_stopping_rule(conduct_data(*against))});
     data["against"]["name"] = against->string();
+    data["against"]["settings"] = campaign_setting_changes(folder, flights.records, *against, earlier.records);
     std::vector<FlightRecord> both = flights.records;
     both.insert(both.end(), earlier.records.begin(), earlier.records.end());
     data["against"]["mixture"] = mixture_words(both);

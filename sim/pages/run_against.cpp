@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "sim/config/include.h"
-#include "sim/config/outline_texts.h"
 #include "sim/config/whole_file.h"
 #include "sim/flight/json_reader.h"
 #include "sim/flight/words.h"
-#include "sim/pages/campaign_data.h"
+#include "sim/pages/campaign_changes.h"
 #include "sim/pages/decimate.h"
 #include "sim/pages/report.h"
 #include "sim/pages/report_page.h"
@@ -90,30 +87,6 @@ Json first_lines(const RunRecord& own, const RunRecord& other) {
   return lines;
 }
 
-void collect(const Node& node, const std::string& path, std::map<std::string, std::string>& values) {
-  if (node.kind == Node::Kind::map) {
-    for (const Entry& entry : node.entries) collect(entry.value, join_path(path, entry.key), values);
-  } else {
-    values[path] = flow_text(node);
-  }
-}
-
-/// Returns the keys of both scenarios whose values differ: [key, other, own, unit].
-Json settings(const RunRecord& own, const RunRecord& other) {
-  std::map<std::string, std::string> a, b;
-  ErrorList ignored("scenario");
-  collect(parse_yaml(own.scenario_yaml, "scenario.yaml", ignored), "", a);
-  collect(parse_yaml(other.scenario_yaml, "scenario.yaml", ignored), "", b);
-  for (const auto& [key, value] : b) a.try_emplace(key, "");
-  Json rows = Json::array();
-  for (const auto& [key, value] : a) {
-    const auto found = b.find(key);
-    const std::string before = found == b.end() ? "" : found->second;
-    if (before != value) rows.push_back({key, before, value, unit_of_column(key, {})});
-  }
-  return rows;
-}
-
 /// Values at given times: those of the last row before each time; NaN after the end.
 std::vector<double> at_times(const std::vector<double>& t_s, const std::vector<double>& values,
                              const std::vector<double>& times_s) {
@@ -159,7 +132,7 @@ Json run_against_data(const std::filesystem::path& folder, const RunRecord& run,
   Json data{{"name", other_folder.string()},
             {"result", page_result(other.result)},
             {"first", first_lines(run, other)},
-            {"settings", settings(run, other)}};
+            {"settings", setting_changes(run.scenario_yaml, other.scenario_yaml)}};
   const std::vector<double> north = other.trajectory.numbers("north_m"), east = other.trajectory.numbers("east_m");
   Json n = Json::array(), e = Json::array();
   for (const size_t row : decimate(std::vector<std::vector<double>>{north, east}, kMaxPathPoints)) {

@@ -4,6 +4,7 @@
 
 #include "sim/batch/flight_table.h"
 #include "sim/config/whole_file.h"
+#include "sim/pages/campaign_changes.h"
 #include "sim/pages/campaign_data.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/figure_plot.h"

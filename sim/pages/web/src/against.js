@@ -20,6 +20,8 @@ class AgainstView {
       `${fresh} only in this campaign, ${against.gone.length} only in the other.`));
     if (against.no_change) host.append(make('p', 'soft', against.no_change));
     this.fillGroups(host.appendChild(make('div', 'scroll tall')), against);
+    this.fillSettings(host, against.settings);
+    this.fillChecks(host, both);
     const pair = host.appendChild(make('div', 'pair halves'));
     this.fillChanged(pair.appendChild(make('div')));
     this.both = both.filter((row) => this.clearance(row) !== null && this.before[row].clearance_m !== null);
@@ -45,6 +47,36 @@ class AgainstView {
       addRow(element, [[group, ''], [rate(before), 'number'], [rate(now), 'number'],
         [change ? percent(change[0]) : '–', 'number'], [change ? `${percent(change[1])} to ${percent(change[2])}` : '–', 'number']]);
     }
+  }
+  fillSettings(host, settings) {
+    if (!settings?.length) return;
+    host.append(make('h3', '', 'Changed settings'));
+    const names = (groups) => groups.length > 3 ? countOf(groups.length, 'scenario') : groups.map(groupWords).join(', ');
+    settingsTable(host.appendChild(make('div')), ['setting', 'before', 'now', 'scenarios'],
+      settings.map(([key, old, now, unit, groups]) => [settingLabel(key, unit), old, now, names(groups)]));
+  }
+  /** Checks whose values changed, also if the outcome did not, the largest relative change first. */
+  fillChecks(host, both) {
+    const most = 20, changes = [];
+    for (const row of both) {
+      for (const [name, old] of Object.entries(this.before[row].checks ?? {})) {
+        const now = this.table.value(name, row), size = Math.max(Math.abs(old), Math.abs(now));
+        if (old === null || now === null || short(old, 6) === short(now, 6)) continue;
+        changes.push({row, name, old, now, share: Math.abs(now - old) / size});
+      }
+    }
+    if (!changes.length) return;
+    changes.sort((a, b) => b.share - a.share);
+    host.append(make('h3', '', 'Changed values of checks'));
+    const element = host.appendChild(make('div', 'scroll')).appendChild(make('table'));
+    element.id = 'changed-checks';
+    addRow(element, [['flight and check', ''], ['before', 'number'], ['now', 'number']], 'th');
+    for (const {row, name, old, now} of changes.slice(0, most)) {
+      const {unit} = this.table.columns.get(name), figures = figuresFor([old, now], 3);
+      addRow(element, [['', ''], [measured(old, unit, figures), 'number'], [measured(now, unit, figures), 'number']]);
+      element.lastChild.firstChild.append(flightButton(this.table, row, this.on), ' ' + wordsOf(name.replace('check.', ''), unit));
+    }
+    if (changes.length > most) host.append(make('p', 'soft', `and ${changes.length - most} more`));
   }
   fillChanged(host) {
     host.append(make('h3', '', 'Flights with a different outcome'));

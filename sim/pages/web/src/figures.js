@@ -58,6 +58,14 @@ function measured(value, unit, figures = 4, like = value) {
 function shownOutcome(outcome, goal_distance_m) {
   return outcome === 'timeout' && (goal_distance_m ?? null) === null ? 'completed' : outcome;
 }
+function settingLabel(key, unit) { return columnLabel({name: key, unit: unitWords(unit)}); }
+/** A table of settings that differ: rows of [label, before, now, ...more]. Long values wrap. */
+function settingsTable(host, heads, rows) {
+  const maximum = 30, table = host.appendChild(make('table', 'settings'));
+  addRow(table, heads.map((head) => [head, '']), 'th');
+  for (const row of rows.slice(0, maximum)) addRow(table, row.map((text) => [text === '' ? '–' : text, '']));
+  if (rows.length > maximum) host.append(make('p', 'soft', `and ${rows.length - maximum} more`));
+}
 function meters(value) { return value === null ? '–' : fixed(value, 2) + ' m'; }
 
 /** Returns a CSS variable of the current theme. */

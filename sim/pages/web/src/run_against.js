@@ -15,7 +15,7 @@ class RunAgainst {
     this.fillPaths(pair.appendChild(make('div')));
     const facts = pair.appendChild(make('div', 'stack'));
     this.fillFacts(facts.appendChild(make('div', 'scroll')));
-    this.fillSettings(facts.appendChild(make('div', 'scroll')));
+    this.fillSettings(facts.appendChild(make('div')));
     this.fillFilms(host, film);
     const none = {hover: () => {}, pick: () => {}};
     this.charts = new Charts(host.appendChild(make('div')), against.panels, {}, none);
@@ -40,11 +40,7 @@ class RunAgainst {
       host.append(make('p', 'soft', 'The settings are equal.'));
       return;
     }
-    const table = host.appendChild(make('table'));
-    addRow(table, [['setting', ''], ['this run', 'number'], ['other run', 'number']], 'th');
-    const cut = (text) => text === '' ? '–' : text.length > 60 ? text.slice(0, 57) + '…' : text;
-    for (const [key, other, own, unit] of settings.slice(0, 30)) addRow(table, [[columnLabel({name: key, unit: unitWords(unit)}), ''], [cut(own), 'number'], [cut(other), 'number']]);
-    if (settings.length > 30) host.append(make('p', 'soft', `and ${settings.length - 30} more`));
+    settingsTable(host, ['setting', 'this run', 'other run'], settings.map(([key, other, own, unit]) => [settingLabel(key, unit), own, other]));
   }
   fillPaths(host) {
     const {plan, path} = this.data, other = this.against.path;
