@@ -29,7 +29,7 @@ TEST(Conduct, BadFileDoesNotCountForTheRateOrThePlannedFlights) {
   ASSERT_EQ(batch.at("verdicts").size(), 1u);
   EXPECT_EQ(batch.at("verdicts").at(0).at("group"), "tiny");
   EXPECT_EQ(batch.at("groups").at(0).at("ended"), 0);
-  EXPECT_THAT(end.out, HasSubstr("| bad | 1 | 0 | - | 0 | 0 | 0 | 1 | 0 |"));
+  EXPECT_THAT(end.out, HasSubstr("| bad | 1 | 0 | - | 0 | 0 | 0 | 0 | 1 | 0 |"));
   EXPECT_THAT(folder.hedgehop("batch bad.yaml tiny.yaml --seeds 5:8 --min-success 0.9 --out out").err,
               AllOf(HasSubstr("unknown key 'foo'"), HasSubstr("4 of 4 flights that pass cannot show")));
 }
