@@ -8,8 +8,8 @@
 /// Checks before the flights of a batch.
 namespace hedgehop::sim::cli {
 
-/// Assembles the scene, the vehicle and the module of a flight, because some errors show only there. Returns the remarks
-/// on the files of its scene. Throws InputError.
+/// Assembles the scene, the vehicle and the module of a flight, because some errors show only there. Returns the
+/// remarks on the files of its scene. Throws InputError.
 std::set<std::string> require_flyable(const Order& order);
 
 /// An OrderCheck: calls require_flyable() for scenarios with a module from outside, which a process of its own loads.
