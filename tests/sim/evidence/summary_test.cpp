@@ -25,6 +25,7 @@ TEST(FailureWords, KeepTheCauseOfACheckApartFromTheNextCheck) {
   FlightRecord record{.status = FlightRecord::Status::flown};
   FlightResult& flight = record.result.emplace().flight;
   flight.outcome = Outcome::timeout;
+  flight.goal_distance_m = 9.0;
   flight.checks = {{.name = "reached_goal", .passed = false, .value = 9.0, .limit = 3.0, .unit = "m", .must = "<="},
                    {.name = "min_clearance", .passed = false, .value = 0.4, .limit = 0.5, .unit = "m", .must = ">="}};
   flight.checks[0].cause = "distance at the end; minimum 8.0 m at 14.0 s";

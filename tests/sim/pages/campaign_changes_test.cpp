@@ -76,7 +76,7 @@ TEST(CampaignInBrowser, ListsChangedSettingsAndValuesOfChecksWithEqualOutcomes) 
     const words = (table) => [...table.querySelectorAll('tr')].slice(1).map((tr) => [...tr.children].map((td) => td.textContent));
     return {settings: words(document.querySelector('#against-card .settings')), checks: words(document.querySelector('#changed-checks'))};)js");
   EXPECT_THAT(page.errors, IsEmpty());
-  EXPECT_EQ(page.value.at("settings")[0][0], "avoidance.speed");
+  EXPECT_EQ(page.value.at("settings")[0][0], "avoidance.speed, m/s");
   EXPECT_EQ(page.value.at("settings")[0][2], "0.5");
   EXPECT_THAT(page.value.at("checks")[0][0].get<std::string>(), testing::EndsWith("/seed1 no collision"));
 }

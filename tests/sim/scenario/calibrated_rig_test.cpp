@@ -98,7 +98,7 @@ TEST(CalibratedRig, ACameraWithoutALensThatTheFileNamesOtherwiseIsRefused) {
     return faults_of([&] { flown("{calibration: chain.yaml, cameras: [{role: left" + camera + "}]}"); });
   };
   EXPECT_THAT(faults(""),
-              ElementsAre(AllOf(HasSubstr("scenario.yaml:7:"), HasSubstr("'rig.cameras.0': 'left' has no lens"),
+              ElementsAre(AllOf(HasSubstr("scenario.yaml:8:"), HasSubstr("'rig.cameras.0': 'left' has no lens"),
                                 HasSubstr("does not list: front;"))));
   EXPECT_THAT(faults(", fov: 60"), ElementsAre());
   EXPECT_THAT(faults(", calibration: chain.yaml"), ElementsAre());
