@@ -52,8 +52,10 @@ class AgainstView {
     if (!settings?.length) return;
     host.append(make('h3', '', 'Changed settings'));
     const names = (groups) => groups.length > 3 ? countOf(groups.length, 'scenario') : groups.map(groupWords).join(', ');
-    settingsTable(host.appendChild(make('div')), ['setting', 'before', 'now', 'scenarios'],
-      settings.map(([key, old, now, unit, groups]) => [settingLabel(key, unit), old, now, names(groups)]));
+    const all = new Set(Array.from({length: this.table.count}, (_, row) => this.table.value('group', row))).size;
+    const apart = settings.some(([, , , , groups]) => groups.length < all);
+    settingsTable(host.appendChild(make('div')), ['setting', 'before', 'now', ...(apart ? ['scenarios'] : [])],
+      settings.map(([key, old, now, unit, groups]) => [settingLabel(key, unit), old, now, ...(apart ? [names(groups)] : [])]));
   }
   /** Checks whose values changed, also if the outcome did not, the largest relative change first. */
   fillChecks(host, both) {
