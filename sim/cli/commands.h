@@ -279,7 +279,7 @@ void print_black_pixels(const RigConfig& rig);
 void warn_of_replay(const std::filesystem::path& folder, const std::string& fault);
 
 /// Prints the remarks on the files of a scene, such as the size of each imported mesh.
-void print_import_limits(const FlightParts& parts);
+void print_remarks(const FlightParts& parts);
 
 /// Returns the YAML files of a folder of configs such as "papers", sorted by name. They are taken from `configs` in the
 /// working folder, otherwise from those of the installed program. Throws InputError that names the folder if there are

@@ -71,7 +71,7 @@ int render(const RenderOptions& options) {
   require_writable_file(options.out);
   LoadedScenario loaded = load(options.scenario);
   print_black_pixels(loaded.scenario.rig);
-  print_import_limits(loaded.parts);
+  print_remarks(loaded.parts);
   Simulation simulation(std::move(loaded));
   const cv::Mat image = file_image(options.what, image_at(simulation, options, channel_of(options.what)));
   const std::filesystem::path folder = options.out.parent_path();

@@ -201,7 +201,7 @@ int run(const RunOptions& options) {
   if (options.no_video) loaded.scenario.film.enabled = false;
   if (options.worker_of == 0) {
     print_black_pixels(loaded.scenario.rig);
-    print_import_limits(loaded.parts);
+    print_remarks(loaded.parts);
   }
   const Scenario scenario = loaded.scenario;
   const Inputs inputs = loaded.inputs;

@@ -56,7 +56,7 @@ void print_black_pixels(const RigConfig& rig) {
   }
 }
 
-void print_import_limits(const FlightParts& parts) {
+void print_remarks(const FlightParts& parts) {
   for (const std::string& line : parts.files.remarks) notice(line + "\n");
 }
 
