@@ -69,6 +69,26 @@ TEST(PushFromWalls, IsZeroInTheMiddleBetweenTwoWallsAndIndependentOfSpeed) {
   }
 }
 
+// With u the tangent of a ray's azimuth, an oblique plane has 1/z = (cos a + u sin a) / d. The means of its flow
+// (u v_axis - v_right) / z give the two inverse ranges in closed form: each has a term in the ratio of the velocities.
+TEST(PushFromWalls, PullsTowardAnObliqueWallIfTheVehicleMovesAlmostAcrossTheAxis) {
+  constexpr double kRangeM = 5.0, kAzimuth = -22.5 * pi / 180;
+  double mean_square = 0.0;  // of u, over the eight columns of the field: 139 px of a focal length of 100 px
+  for (int col = 0; col < 8; ++col) mean_square += std::pow((col / 7.0 - 0.5) * 1.39, 2) / 8.0;
+  const MountedCamera front = level_camera("front", 0.0, 200, 50.0);
+  const auto push_along_axis = [&](double course) {
+    const Eigen::Vector2d v_B(2 * std::cos(course), 2 * std::sin(course));
+    const std::array sides = {flow_of_wall(front, v_B, kRangeM, kAzimuth)};
+    const double ratio = v_B.y() / v_B.x(), c = std::cos(kAzimuth), s = std::sin(kAzimuth);
+    const double push = push_from_walls(sides, v_B, kGains).x();
+    const double from_loom = (c + s * -ratio) / kRangeM, from_flow = (c - s * mean_square / ratio) / kRangeM;
+    EXPECT_NEAR(push, -4.0 * from_loom - 5.0 * from_flow, 0.02) << course;
+    return push;
+  };
+  EXPECT_LT(push_along_axis(-38.0 * pi / 180), -0.9);  // away from the wall
+  EXPECT_GT(push_along_axis(-83.0 * pi / 180), 0.5);   // toward it, although the vehicle approaches at 1 m/s
+}
+
 TEST(SaturatedDivisor, KeepsTheSignAndTheMinimumMagnitude) {
   EXPECT_EQ(saturated_divisor(1.5), 1.5);
   EXPECT_EQ(saturated_divisor(-1.5), -1.5);
