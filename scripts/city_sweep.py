@@ -3,7 +3,7 @@
 import collections
 import csv
 
-SWEEPS = ("published", "modified", "control")
+SWEEPS = ("published", "modified", "control", "modified_wide")
 HEADINGS_DEG = (0.0, 22.5, 45.0)
 CELL_W, CELL_H, GAP, LEFT, TOP = 62, 40, 26, 172, 46  # px; LEFT and TOP leave room for labels
 BLUES = ("#f3f7fb", "#d3e3f1", "#a9cbe4", "#74abd3", "#3f86bd", "#14538c")  # from 0 to all flights
@@ -28,28 +28,40 @@ def counts(rows):
 
 
 def all_sweeps(out):
-    """{law: cells} of the three sweeps, or {} if one is incomplete."""
+    """{law: cells} of the sweeps, or {} if one is incomplete."""
     sweeps = {law: cells_of(out / f"city_{law}") for law in SWEEPS}
     return sweeps if all(sweeps.values()) else {}
 
 
-def table(sweeps):
-    """Goals reached and, in brackets, contacts of center and hull, per cell of the city; totals per column."""
-    columns = [("published", heading) for heading in HEADINGS_DEG] + [("modified", heading) for heading in HEADINGS_DEG] + [("control", 0.0)]
-    flights = {len(rows) for cells in sweeps.values() for rows in cells.values()}
-    builds = sorted({row["build"] for cells in sweeps.values() for rows in cells.values() for row in rows})
-    seeds = sorted({int(row["seed"]) for cells in sweeps.values() for rows in cells.values() for row in rows})
-    lines = [f"Renderer `tiles`, seeds {seeds[0]} to {seeds[-1]}, build {', '.join(f'`{build}`' for build in builds)}; flights per cell: "
-             f"{', '.join(map(str, sorted(flights)))}. Each cell: flights that reach the goal (flights whose center meets a wall, whose hull does).", "",
-             "| pitch, m | streets of at least, m | " + " | ".join(f"{law}, {heading:g} degrees" for law, heading in columns) + " |",
+def origin(sweeps, laws):
+    """The line above a table."""
+    rows = [row for law in laws for flown in sweeps[law].values() for row in flown]
+    builds, seeds = sorted({row["build"] for row in rows}), sorted({int(row["seed"]) for row in rows})
+    return (f"Renderer `tiles`, seeds {seeds[0]} to {seeds[-1]}, build {', '.join(f'`{build}`' for build in builds)}, "
+            f"{len(seeds)} flights per cell. Each cell: flights that reach the goal (center meets a wall, hull meets a wall).\n\n")
+
+
+def lines_of(sweeps, columns):
+    """Lines of a table: a cell of the city per row, a law and heading per column; then the totals."""
+    places = sorted({key[1:] for key in sweeps[columns[0][0]]})
+    lines = ["| pitch, m | streets of at least, m | " + " | ".join(f"{law}, {heading:g} degrees" for law, heading in columns) + " |",
              "|---|---|" + "---|" * len(columns)]
-    places = sorted({key[1:] for key in sweeps["published"]})
+    totals = [[0] * 4 for _ in columns]
     for pitch, width in places:
         found = [counts(sweeps[law][heading, pitch, width]) for law, heading in columns]
+        totals = [[a + b for a, b in zip(*pair)] for pair in zip(totals, found)]
         lines.append(f"| {pitch:g} | {width:g} | " + " | ".join(f"{reached} ({center}, {hull})" for _, reached, center, hull in found) + " |")
-    totals = [[sum(part) for part in zip(*(counts(sweeps[law][heading, *place]) for place in places))] for law, heading in columns]
     lines.append("| all | all | " + " | ".join(f"{reached} of {flown} ({center}, {hull})" for flown, reached, center, hull in totals) + " |")
     return "\n".join(lines)
+
+
+def table(sweeps):
+    """Goals reached and contacts per cell of the city: both laws and the control; then the modified law in wide cities."""
+    laws = [(law, heading) for law in ("published", "modified") for heading in HEADINGS_DEG] + [("control", 0.0)]
+    wide = [("modified_wide", heading) for heading in HEADINGS_DEG]
+    return (origin(sweeps, ("published", "modified", "control")) + lines_of(sweeps, laws) +
+            "\n\nThe modified law with `clearance: 0`. " + origin(sweeps, ("modified_wide",)) +
+            lines_of(sweeps, wide).replace("modified_wide, ", "modified, "))
 
 
 def panel(cells, heading, x, y):
