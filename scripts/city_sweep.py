@@ -12,7 +12,7 @@ BLUES = ("#f3f7fb", "#d3e3f1", "#a9cbe4", "#74abd3", "#3f86bd", "#14538c")  # fr
 def cells_of(folder):
     """{(heading, pitch, width): flights of one sweep}; empty if a flight is missing or faulty."""
     table = folder / "sweep.csv"
-    rows = list(csv.DictReader(table.open(newline=""))) if table.exists() else []
+    rows = list(csv.DictReader(table.read_text().splitlines())) if table.exists() else []
     cells = collections.defaultdict(list)
     for row in rows:
         if row["status"] != "flown" or row["outcome"] == "fault":
