@@ -17,7 +17,7 @@ def cells_of(folder):
     for row in rows:
         if row["status"] != "flown" or row["outcome"] == "fault":
             return {}
-        cells[tuple(float(row[name]) for name in ("start.heading", "scene.pitch", "scene.street_min_width"))].append(row)
+        cells[tuple(float(row.get(name, 0.0)) for name in ("start.heading", "scene.pitch", "scene.street_min_width"))].append(row)
     return dict(cells)
 
 
