@@ -36,15 +36,16 @@ def all_sweeps(out):
 def origin(sweeps, laws):
     """The line above a table."""
     rows = [row for law in laws for flown in sweeps[law].values() for row in flown]
-    builds, seeds = sorted({row["build"] for row in rows}), sorted({int(row["seed"]) for row in rows})
-    return (f"Renderer `tiles`, seeds {seeds[0]} to {seeds[-1]}, build {', '.join(f'`{build}`' for build in builds)}, "
-            f"{len(seeds)} flights per cell. Each cell: flights that reach the goal (center meets a wall, hull meets a wall).\n\n")
+    builds, renderers = (", ".join(f"`{value}`" for value in sorted({row[name] for row in rows})) for name in ("build", "renderer"))
+    seeds = sorted({int(row["seed"]) for row in rows})
+    return (f"Renderer {renderers}, seeds {seeds[0]} to {seeds[-1]}, build {builds}, {len(seeds)} flights per cell. "
+            "Each cell: flights that reach the goal (center meets a wall, hull meets a wall).\n\n")
 
 
 def lines_of(sweeps, columns):
     """Lines of a table: a cell of the city per row, a law and heading per column; then the totals."""
     places = sorted({key[1:] for key in sweeps[columns[0][0]]})
-    lines = ["| pitch, m | streets of at least, m | " + " | ".join(f"{law}, {heading:g} degrees" for law, heading in columns) + " |",
+    lines = ["| pitch, m | minimum street width, m | " + " | ".join(f"{law}, {heading:g} degrees" for law, heading in columns) + " |",
              "|---|---|" + "---|" * len(columns)]
     totals = [[0] * 4 for _ in columns]
     for pitch, width in places:
@@ -99,5 +100,5 @@ def figure(sweeps):
     for row, law in enumerate(("published", "modified")):
         middle = TOP + row * (panel_h + GAP + 14) + panel_h / 2
         parts.append(f'<text x="12" y="{middle}" font-weight="bold">{law} law</text>'
-                     f'<text transform="translate({LEFT - 34} {middle}) rotate(-90)" text-anchor="middle">street width, at least, m</text>')
+                     f'<text transform="translate({LEFT - 34} {middle}) rotate(-90)" text-anchor="middle">minimum street width, m</text>')
     return "\n".join(parts) + "\n</svg>\n"

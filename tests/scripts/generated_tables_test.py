@@ -31,12 +31,12 @@ class GeneratedTables(unittest.TestCase):
                 self.assertAlmostEqual(bound, expected, 1)
 
 
-COLUMNS = "start.heading,scene.pitch,scene.street_min_width,seed,build,status,outcome,metric.center_collision,metric.hull_collision\n"
+COLUMNS = "start.heading,scene.pitch,scene.street_min_width,seed,build,renderer,status,outcome,metric.center_collision,metric.hull_collision\n"
 
 
 class CitySweep(unittest.TestCase):
     def test_every_flight_is_counted_in_its_cell_and_a_missing_flight_leaves_the_table_unchanged(self):
-        rows = [f"{heading},50,8,{seed},b1,flown,{outcome},{center},1" for heading in (0, 22.5, 45)
+        rows = [f"{heading},50,8,{seed},b1,tiles,flown,{outcome},{center},1" for heading in (0, 22.5, 45)
                 for seed, outcome, center in ((1, "reached", 0), (2, "collided", 1), (3, "timeout", 0))]
         with tempfile.TemporaryDirectory() as name:
             out = pathlib.Path(name)
@@ -49,7 +49,7 @@ class CitySweep(unittest.TestCase):
             self.assertIn("| all | all |" + " 1 of 3 (1, 3) |" * 3 + "\n", city_sweep.table(sweeps) + "\n")
             self.assertEqual(city_sweep.figure(sweeps).count(">1 of 3<"), 6)
             for lost in ("missing,,", "flown,fault,"):
-                (out / "city_control/sweep.csv").write_text(COLUMNS + "\n".join(rows + [f"0,50,8,4,b1,{lost},"]))
+                (out / "city_control/sweep.csv").write_text(COLUMNS + "\n".join(rows + [f"0,50,8,4,b1,tiles,{lost},"]))
                 self.assertEqual(city_sweep.all_sweeps(out), {})
 
 
