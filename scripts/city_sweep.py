@@ -3,7 +3,7 @@
 import collections
 import csv
 
-SWEEPS = ("published", "modified", "control", "modified_wide")
+SWEEPS = ("published", "modified", "control")
 HEADINGS_DEG = (0.0, 22.5, 45.0)
 CELL_W, CELL_H, GAP, LEFT, TOP = 62, 40, 26, 172, 46  # px; LEFT and TOP leave room for labels
 BLUES = ("#f3f7fb", "#d3e3f1", "#a9cbe4", "#74abd3", "#3f86bd", "#14538c")  # from 0 to all flights
@@ -33,9 +33,9 @@ def all_sweeps(out):
     return sweeps if all(sweeps.values()) else {}
 
 
-def origin(sweeps, laws):
-    """The line above a table."""
-    rows = [row for law in laws for flown in sweeps[law].values() for row in flown]
+def origin(sweeps):
+    """The line above the table."""
+    rows = [row for law in SWEEPS for flown in sweeps[law].values() for row in flown]
     builds, renderers = (", ".join(f"`{value}`" for value in sorted({row[name] for row in rows})) for name in ("build", "renderer"))
     seeds = sorted({int(row["seed"]) for row in rows})
     return (f"Renderer {renderers}, seeds {seeds[0]} to {seeds[-1]}, build {builds}, {len(seeds)} flights per cell. "
@@ -57,12 +57,9 @@ def lines_of(sweeps, columns):
 
 
 def table(sweeps):
-    """Goals reached and contacts per cell of the city: both laws and the control; then the modified law in wide cities."""
+    """Goals reached and contacts per cell of the city: both laws and the control."""
     laws = [(law, heading) for law in ("published", "modified") for heading in HEADINGS_DEG] + [("control", 0.0)]
-    wide = [("modified_wide", heading) for heading in HEADINGS_DEG]
-    return (origin(sweeps, ("published", "modified", "control")) + lines_of(sweeps, laws) +
-            "\n\nThe modified law with `clearance: 0`. " + origin(sweeps, ("modified_wide",)) +
-            lines_of(sweeps, wide).replace("modified_wide, ", "modified, "))
+    return origin(sweeps) + lines_of(sweeps, laws)
 
 
 def panel(cells, heading, x, y):

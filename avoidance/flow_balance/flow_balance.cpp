@@ -32,7 +32,9 @@ class FlowBalance final : public Module {
 
   void do_reset(const Setup& setup) override {
     cameras_.emplace(setup, config_.flow, /*derotate=*/!is_published());
-    ranging_.emplace(kCityPatches);
+    PatchRanging::Options patches = kCityPatches;
+    patches.max_elevation_rad = config_.max_elevation_rad;
+    ranging_.emplace(patches);
     ring_.emplace(RangeRing::Options{config_.memory_s, config_.release_s});
     detour_.emplace(config_.patience_s);
     radius_m_ = setup.limits.radius_m;

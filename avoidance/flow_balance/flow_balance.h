@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <string_view>
 
 #include "avoidance/law.h"
@@ -27,6 +28,7 @@ struct FlowBalanceConfig {
   double slow_radius_m = 4.0;
   double patience_s = 0.0;
   double command_time_constant_s = 0.0;
+  double max_elevation_rad = std::numbers::pi / 2;
   double memory_s = 4.0;
   double release_s = 0.0;
   double clearance_m = 0.0;
@@ -63,6 +65,13 @@ void describe(Visitor& v, fields::ConfigOf<FlowBalanceConfig> auto& c) {
     {.unit = "s",
      .at_least = 0.0,
      .meaning = "modified law: time constant of the low-pass filter of the commanded velocity; 0 disables the filter"});
+  v("max_elevation", c.max_elevation_rad,
+    {.unit = "deg",
+     .at_least = -60.0,
+     .at_most = 90.0,
+     .meaning =
+         "modified law: patches centered higher above the horizon measure no obstacles; negative below buildings, "
+         "because a smooth sky yields false flow while the vehicle tilts; 90: all patches count"});
   v("memory", c.memory_s,
     {.unit = "s",
      .above = 0.0,

@@ -18,6 +18,7 @@ namespace {
 constexpr double kNearestShare = 0.1;
 /// Maximum angle from the direction of the path. The vehicle passes walls at larger angles.
 constexpr double kPathAngleRad = std::numbers::pi / 3;
+constexpr double kNotCounted = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Eigen::Vector2d> patch_directions_H(const CameraFlow& camera, const SideFlow& side) {
   std::vector<Eigen::Vector2d> directions_H;
@@ -137,15 +138,20 @@ void PatchRanging::add_image(const CameraFlow& camera, const NavigationState& na
       vision::flow::inverse_ranges_per_m(camera.field(), lens, v_WC_C, dt_s, options_.floor_mps);
   const std::vector<double> weights = vision::flow::parallax_weights(camera.field(), lens, v_WC_C, options_.floor_mps);
   const std::vector<double> bearings_rad = vision::flow::bearings_rad(camera.field(), lens);
+  const Eigen::Vector3d down_C =
+      camera.camera().X_BC.linear().transpose() * (navigation.q_WB_est.conjugate() * Eigen::Vector3d::UnitZ());
+  side.weights.assign(weights.size(), kNotCounted);
   std::vector<RangeMemory::Measurement> measurements;
   measurements.reserve(weights.size());
   for (size_t i = 0; i < weights.size(); ++i) {
+    const vision::flow::FlowVector& vector = camera.field().vectors[i];
+    const double sine_below = lens.ray_at_unit_depth(vector.center_px).normalized().dot(down_C);
+    const bool counts = sine_below >= -std::sin(options_.max_elevation_rad);
     const double closing_mps = v_WC_C.z() * std::cos(bearings_rad[i]) + v_WC_C.x() * std::sin(bearings_rad[i]);
-    measurements.push_back({inverse_ranges_per_m[i], weights[i], closing_mps});
+    measurements.push_back({counts ? inverse_ranges_per_m[i] : kNotCounted, weights[i], closing_mps});
+    if (counts) side.weights[i] = vector.valid ? weights[i] : 0.0;
   }
   side.lasting.add(side.memory.update(measurements, dt_s));
-  side.weights = weights;
-  for (size_t i = 0; i < weights.size(); ++i) side.weights[i] *= camera.field().vectors[i].valid ? 1.0 : 0.0;
   side.cols = camera.field().cols;
 }
 
@@ -155,14 +161,16 @@ std::vector<RangeColumn> PatchRanging::columns(size_t side) const {
   std::vector<RangeColumn> columns;
   if (cols == 0) return columns;
   const std::vector<double> lasting_per_m = lasting.lasting_per_m();
-  const auto count = static_cast<size_t>(cols), rows = weights.size() / count;
+  const auto count = static_cast<size_t>(cols);
   for (size_t col = 0; col < count; ++col) {
     RangeColumn column{.direction_H = directions_H[col]};
-    std::vector<double> near_per_m;
+    std::vector<double> near_per_m, counting;
     for (size_t i = col; i < weights.size(); i += count) {
+      if (std::isnan(weights[i])) continue;
       near_per_m.push_back(lasting_per_m[i]);
-      column.weight += weights[i] / static_cast<double>(rows);
+      counting.push_back(weights[i]);
     }
+    for (const double weight : counting) column.weight += weight / static_cast<double>(counting.size());
     column.inverse_range_per_m = vision::flow::nearest_inverse_range_per_m(std::move(near_per_m), kNearestRows);
     columns.push_back(column);
   }

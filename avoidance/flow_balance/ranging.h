@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -45,7 +46,7 @@ struct Approach {
 struct RangeColumn {
   Eigen::Vector2d direction_H = Eigen::Vector2d::UnitX();  ///< level, length 1
   double inverse_range_per_m = 0.0;                        ///< of the nearest obstacles in the column; 0 if unknown
-  double weight = 0.0;  ///< mean of vision::flow::parallax_weights(); patches without flow count as 0
+  double weight = 0.0;  ///< mean of vision::flow::parallax_weights() of the counted patches; 0 without flow
 };
 
 /// A method that computes ranges from the flow of four cameras.
@@ -122,6 +123,8 @@ class PatchRanging final : public Ranging {
     double floor_mps = 0.2;  ///< see vision::flow::inverse_depth_per_m(), > 0
     double memory_s = 0.0;   ///< see RangeMemory, >= 0
     int images = 3;          ///< see LastingRanges, at least 1
+    /// Patches whose center is higher above the horizon than this are not counted.
+    double max_elevation_rad = 0.5 * std::numbers::pi;
   };
   explicit PatchRanging(const Options& options);
 
@@ -132,7 +135,8 @@ class PatchRanging final : public Ranging {
   PerSide left_once_stopped_per_m(const Approach& approach) const override;
 
   /// The columns of one camera, from left to right; empty before the first image. The range of a column is the mean
-  /// over its nearest quarter of patches, because sky, ground and far roofs must not hide a wall between them.
+  /// over the nearest quarter of its counted patches, because sky, ground and far roofs must not hide a wall between
+  /// them.
   std::vector<RangeColumn> columns(size_t side) const;
 
  private:
@@ -140,7 +144,7 @@ class PatchRanging final : public Ranging {
     RangeMemory memory;
     LastingRanges lasting;
     std::vector<Eigen::Vector2d> directions_H;  ///< directions of the patches, level, length 1
-    std::vector<double> weights;                ///< of the patches of the last image; 0 without flow
+    std::vector<double> weights;  ///< of the patches of the last image; 0 without flow, NaN if not counted
     int cols = 0;
   };
   void add_image(const CameraFlow& camera, const NavigationState& navigation, double dt_s, Side& side) const;

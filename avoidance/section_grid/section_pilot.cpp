@@ -85,19 +85,21 @@ Command SectionPilot::update(const SectionView& view, const Goal& goal) {
 }
 
 /// Returns a position over or at `end_W`, as low as images have shown the path to be free; at the vehicle's altitude if
-/// no descent is free. It therefore does not descend into an obstacle that it has climbed over and no longer sees.
+/// no descent is free. It therefore does not descend into an obstacle that it has climbed over and no longer sees. The
+/// tested path descends first, because a slow vehicle sinks faster than it moves ahead.
 Eigen::Vector3d SectionPilot::descent_W(const Eigen::Vector3d& end_W, const SectionView& view) {
   constexpr double kLevelM = 0.5;  // of altitude: about the error of the estimate
-  constexpr double kClearM = 0.5;  // from the hull
   const Eigen::Vector3d& p_WB = view.navigation.p_WB_est;
   const double down_m = end_W.z() - p_WB.z();
   if (down_m > kLevelM) {
     for (const double share : {1.0, 0.5, 0.25}) {
       Eigen::Vector3d lower_W = end_W;
       lower_W.z() = p_WB.z() + share * down_m;
-      const Eigen::Vector3d path_W = lower_W - p_WB;
-      const Eigen::Vector3d tested_W = p_WB + std::min(1.0, view.reach_m / path_W.norm()) * path_W;
-      if (!view.seen.free_path(p_WB, tested_W, radius_m_ + kClearM)) continue;
+      const double ahead_m = (end_W - p_WB).head<2>().norm();
+      const double sinking_share = share * down_m < ahead_m ? share * down_m / ahead_m : 1.0;  // of the way: at 45 deg
+      Eigen::Vector3d low_W = p_WB + sinking_share * (end_W - p_WB);
+      low_W.z() = lower_W.z();
+      if (!is_seen_free(p_WB, low_W, view) || !is_seen_free(low_W, lower_W, view)) continue;
       level_z_W_.reset();
       return lower_W;
     }
@@ -106,6 +108,18 @@ Eigen::Vector3d SectionPilot::descent_W(const Eigen::Vector3d& end_W, const Sect
   }
   level_z_W_.reset();
   return end_W;
+}
+
+/// Returns whether images have shown that a straight path is free, with 0.5 m around the hull, within the reach of the
+/// threats.
+bool SectionPilot::is_seen_free(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W,
+                                const SectionView& view) const {
+  constexpr double kClearM = 0.5;
+  const double left_m = view.reach_m - (from_W - view.navigation.p_WB_est).norm();
+  const Eigen::Vector3d path_W = to_W - from_W;
+  if (left_m <= 0.0 || path_W.isZero()) return true;
+  const Eigen::Vector3d tested_W = from_W + std::min(1.0, left_m / path_W.norm()) * path_W;
+  return view.seen.free_path(from_W, tested_W, radius_m_ + kClearM);
 }
 
 /// Hovers and yaws until a section is free. [Perez2018] sec. V-D.

@@ -54,6 +54,7 @@ class SectionPilot {
   bool is_free(const Eigen::Vector3d& p_W, const SectionView& view) const;
   bool is_blocked(const Eigen::Vector3d& end_W, const SectionView& view) const;
   Eigen::Vector3d descent_W(const Eigen::Vector3d& end_W, const SectionView& view);
+  bool is_seen_free(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, const SectionView& view) const;
   Command hover_and_yaw(const SectionView& view, const Goal& goal);
   void choose_side(double side, const NavigationState& navigation, const Goal& goal);
 

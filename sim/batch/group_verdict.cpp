@@ -32,10 +32,9 @@ Count earlier_count(const std::string& batch_json, const std::string& group) {
 
 GroupVerdict judge(const SuccessRateCheck& check, const GroupSummary& group) {
   const Interval interval = wilson_interval(group.success, check.confidence);
-  const std::string words =
-      fmt::format("{} of {} passed; the rate's {:g} % interval {} to {:.3f} must begin at {} or above",
-                  group.success.successes, group.success.trials, 100.0 * check.confidence,
-                  distinct_decimals(interval.low, check.at_least), interval.high, check.at_least);
+  const std::string words = fmt::format("{} of {} passed; lower bound of the {:g} % interval {}; required: >= {}",
+                                        group.success.successes, group.success.trials, 100.0 * check.confidence,
+                                        distinct_decimals(interval.low, check.at_least), check.at_least);
   return {
       group.group, std::string(SuccessRateCheck::kName), interval.low >= check.at_least, interval.low, check.at_least,
       words};

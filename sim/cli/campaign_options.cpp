@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "sim/batch/fly_orders.h"
 #include "sim/batch/usable_cores.h"
@@ -77,12 +78,13 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
       "fly only the flights of --out that did not pass; without FILES, the flights of its batch.json");
   command->add_flag("--resume", options->resume, "reuse results in --out with the same scenario, build and input files")
       ->excludes(failed_only);
-  command
-      ->add_option("--min-success", options->min_success,
-                   "required success rate over the seeds; the lower bound of its interval must reach it")
-      ->transform(number())
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("RATE");
+  auto* const min_success =
+      command
+          ->add_option("--min-success", options->min_success,
+                       "required success rate over the seeds; the lower bound of its interval must reach it")
+          ->transform(number())
+          ->check(CLI::Range(0.0, 1.0))
+          ->type_name("RATE");
   auto* const no_worse =
       command
           ->add_option("--no-worse-than", options->no_worse_than,
@@ -114,13 +116,19 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   auto* const of =
       command->add_option("--of", options->of, "event for --until-width: collision, success, timeout")->needs(width);
   width->needs(of);
-  command
-      ->add_option("--confidence", options->confidence, "confidence level of all checks over the seeds; default 0.95")
-      ->transform(number())
-      ->check(CLI::Range(0.5, 0.99999));
+  auto* const confidence = command
+                               ->add_option("--confidence", options->confidence,
+                                            "confidence level of --min-success, --no-worse-than, --until and "
+                                            "--until-width; default 0.95")
+                               ->transform(number())
+                               ->check(CLI::Range(0.5, 0.99999));
   command->add_flag("--json", options->json, "print batch.json instead of a table");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
-  command->callback([&chosen, options] { chosen = [options] { return batch(*options); }; });
+  command->callback([&chosen, options, uses = std::vector{min_success, no_worse, until, width}, confidence] {
+    if (*confidence && std::ranges::none_of(uses, [](const CLI::Option* use) { return bool(*use); }))
+      throw CLI::RequiresError("--confidence", "--min-success, --no-worse-than, --until or --until-width");
+    chosen = [options] { return batch(*options); };
+  });
 }
 
 void declare_validate(CLI::App& app, std::function<int()>& chosen) {

@@ -168,6 +168,7 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
 std::string usage_fault(const CLI::Error& error) {
   constexpr std::string_view kBefore = ": 1 required ", kAfter = " missing";
   std::string text = one_line(error.what());
+  if (text.starts_with(": ")) text = "--gl" + text;  // CLI11 does not name a hidden option
   const size_t at = text.find(kBefore);
   if (at == std::string::npos || !text.ends_with(kAfter)) return text;
   const size_t begin = at + kBefore.size();

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/batch/folders.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
+#include "sim/cli/flyable.h"
 #include "sim/cli/progress.h"
 #include "sim/config/folder_lock.h"
 #include "sim/config/whole_file.h"
@@ -141,6 +143,7 @@ class FalsifyRun {
   }
 
   std::optional<std::vector<FlightRecord>> fly(const std::vector<Order>& orders, bool reports) {
+    if (std::exchange(is_first_, false)) require_first_flyable(orders);
     FlyOptions options = fly_;
     options.reports = reports;
     auto records = fly_shown(orders, options, interruption_, *progress_);
@@ -210,6 +213,7 @@ class FalsifyRun {
   FlyOptions fly_;
   Interruption interruption_;
   std::optional<CampaignProgress> progress_;
+  bool is_first_ = true;  ///< no flight has been ordered yet
 };
 
 }  // namespace

@@ -29,4 +29,10 @@ void require_flyable_foreign(const Scenario& scenario, const Order& order) {
   if (apart.overrides.size() > order.overrides.size()) require_flyable(apart);
 }
 
+void require_first_flyable(const std::vector<Order>& orders) {
+  if (orders.empty()) return;
+  const Order& first = orders.front();
+  require_flyable_foreign(load_flight(first.scenario, first.overrides, first.seed).scenario, first);
+}
+
 }  // namespace hedgehop::sim::cli

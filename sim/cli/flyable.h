@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "sim/batch/record.h"
 
@@ -14,5 +15,8 @@ std::set<std::string> require_flyable(const Order& order);
 
 /// An OrderCheck: calls require_flyable() for scenarios with a module from outside, which a process of its own loads.
 void require_flyable_foreign(const Scenario& scenario, const Order& order);
+
+/// Calls require_flyable_foreign() for the first of the orders: before the first flight of a sweep or a search.
+void require_first_flyable(const std::vector<Order>& orders);
 
 }  // namespace hedgehop::sim::cli

@@ -12,6 +12,7 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/config/outline_texts.h"
+#include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
 #include "sim/pages/replay.h"
@@ -111,8 +112,9 @@ int calibration(const CalibrationOptions& options) {
 }
 
 int runs(const std::filesystem::path& folder) {
-  const size_t results = write_runs_page(folder);
-  fmt::print("{} results; written: {}\n", results, (folder / "index.html").string());
+  const RunsPage page = write_runs_page(folder);
+  for (const std::string& line : page.unread) warn(line);
+  fmt::print("{}; written: {}\n", counted(page.results, "result"), (folder / "index.html").string());
   return 0;
 }
 

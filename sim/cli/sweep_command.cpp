@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "sim/batch/junit.h"
 #include "sim/batch/seeds.h"
@@ -12,6 +13,7 @@
 #include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
+#include "sim/cli/flyable.h"
 #include "sim/cli/progress.h"
 #include "sim/config/folder_lock.h"
 #include "sim/config/utf8.h"
@@ -143,6 +145,7 @@ void for_each_chunk(const SweepPlan& plan, Shard shard, Each each) {
 }
 
 int fly_all(const SweepRun& run, const SweepPlan& plan, Shard shard) {
+  require_first_flyable(plan.orders(0, 1, {}).orders);
   Interruption interruption;
   CampaignProgress progress((plan.flights() + shard.of - shard.index) / shard.of);
   const FlyOptions options = fly_options(run);
@@ -178,7 +181,9 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   const size_t seeds = run.sweep.seeds ? parse_seeds(*run.sweep.seeds).size() : 1;
   CampaignProgress progress(seeds * static_cast<size_t>(design.evaluations));
   const FlyOptions options = fly_options(run);
+  bool is_first = true;
   const FlyPoint fly = [&](const std::vector<Order>& orders) -> std::optional<std::vector<FlightRecord>> {
+    if (std::exchange(is_first, false)) require_first_flyable(orders);
     auto records = fly_shown(orders, options, interruption, progress);
     if (interruption.signal() != 0) return std::nullopt;
     return records;

@@ -162,6 +162,9 @@ bool expect_map(const Node& node, const std::string& path, ErrorList& errors) {
 
 void StructReader::missing(std::string_view key, const fields::Field& field) const {
   if (map_.incomplete) return;  // the unreadable file may have it
+  const std::string renamed = fmt::format("; its name is now '{}'", key);
+  const auto is_former = [&](const Entry& entry) { return errors_.advice(path_, entry.key, "", keys_) == renamed; };
+  if (std::ranges::any_of(map_.entries, is_former)) return;  // finish() reports the former key
   const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
   const std::string meaning = field.meaning.empty() ? "" : fmt::format(": {}{}", field.meaning, unit);
   errors_.add(map_.position, fmt::format("missing key '{}' in {}{}", key, errors_.path_text(path_), meaning));

@@ -135,14 +135,21 @@ Json runs_data(const fs::path& folder) {
   return data;
 }
 
-size_t write_runs_page(const fs::path& folder) {
+RunsPage write_runs_page(const fs::path& folder) {
   Json data = runs_data(folder);
-  const size_t results = data["runs"].size() + data["campaigns"].size();
-  if (results == 0) throw InputError(folder.string() + ": no result.json, batch.csv or sweep.csv in this folder tree");
+  const RunsPage page{.results = data["runs"].size() + data["campaigns"].size(),
+                      .unread = data["unread"].get<std::vector<std::string>>()};
+  if (page.results == 0) {
+    std::vector<std::string> lines{folder.string() +
+                                   (page.unread.empty() ? ": no result.json, batch.csv or sweep.csv in this folder tree"
+                                                        : ": no result in this folder tree can be read")};
+    lines.insert(lines.end(), page.unread.begin(), page.unread.end());
+    throw InputError(lines);
+  }
   data["folder"] = fs::absolute(folder).lexically_normal().string();
   const std::string text = json_text(data);
   write_file_whole(folder / "index.html", runs_html("Runs", text));
-  return results;
+  return page;
 }
 
 }  // namespace hedgehop::sim

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 namespace hedgehop::sim {
 
@@ -11,8 +14,14 @@ namespace hedgehop::sim {
 /// build and date; `unread`, the folders whose results cannot be read, with the cause.
 nlohmann::ordered_json runs_data(const std::filesystem::path& folder);
 
+/// Content of an index of results.
+struct RunsPage {
+  size_t results = 0;
+  std::vector<std::string> unread;  ///< folders whose results cannot be read, with the cause
+};
+
 /// Writes `index.html` into the folder: a table of all results, sorted by a click. It needs no server.
-/// @return the number of results. Throws InputError if there is no result, and PagesAbsent.
-size_t write_runs_page(const std::filesystem::path& folder);
+/// Throws InputError if there is no readable result, with the cause for each unreadable one, and PagesAbsent.
+RunsPage write_runs_page(const std::filesystem::path& folder);
 
 }  // namespace hedgehop::sim

@@ -78,7 +78,12 @@ class Examiner {
   }
 
   void known_flights(const std::string& name, const std::string& at) {
-    if (!names_.contains(name)) fault(at, fmt::format("no flights are called '{}'", name));
+    constexpr std::string_view kFormer = "/printed", kPresent = "/published";
+    if (names_.contains(name)) return;
+    const std::string present =
+        name.ends_with(kFormer) ? name.substr(0, name.size() - kFormer.size()) + std::string(kPresent) : "";
+    fault(at, fmt::format("no flights are called '{}'{}", name,
+                          names_.contains(present) ? fmt::format("; their name is now '{}'", present) : ""));
   }
 
   void column(const std::string& calculation, const std::string& name, const std::string& at) {

@@ -9,7 +9,7 @@ import pathlib
 import numpy as np
 
 
-TEXTS = ("trajectory_hash", "build")  # hexadecimal digits, which could be parsed as a number
+TEXTS = ("trajectory_hash", "build", "point")  # hexadecimal digits, which could be parsed as a number
 
 
 def _column(name, texts):

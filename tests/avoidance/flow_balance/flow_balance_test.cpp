@@ -34,7 +34,7 @@ Eigen::Vector2d polar(double length, double azimuth) {
 // Returns the commanded velocity after a few images of steady flight at v_WB_W.
 VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& walls, double heading_rad,
                                   const Eigen::Vector2d& v_WB_W, const Goal& goal,
-                                  const Eigen::Vector3d& w_WB_B = {0, 0, 0}) {
+                                  const Eigen::Vector3d& w_WB_B = {0, 0, 0}, double pitch_rad = 0.0) {
   constexpr double kPeriodS = 0.04;
   const auto module = make_flow_balance(config);
   const Setup setup = four_cameras(kSizePx, 1.0 / kPeriodS);
@@ -45,6 +45,9 @@ VelocityCommand command_in_flight(const FlowBalanceConfig& config, const Walls& 
     const Eigen::Vector2d p = v_WB_W * (kPeriodS * i);
     NavigationState navigation = level_flight({p.x(), p.y(), -5.0}, heading_rad + w_WB_B.z() * kPeriodS * i, v_WB_W);
     navigation.w_WB_B_est = w_WB_B;
+    const Eigen::Quaterniond pitched(Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()));
+    navigation.q_WB_est = navigation.q_WB_gyro = navigation.q_WB_est * pitched;
+    navigation.v_WB_B_est = pitched.conjugate() * navigation.v_WB_B_est;
     const auto frames = see(setup, navigation, t_ns, walls, wavy_texture());
     command = std::get<VelocityCommand>(module->update({t_ns, frames, navigation, goal}).command);
   }
@@ -171,6 +174,24 @@ TEST(FlowBalance, DoesNotFlyFasterTowardAWallThanItCanStop) {
   EXPECT_NEAR(stop_m, wall_m - flown_m - radius_m - config.clearance_m, 0.6);  // flow errs by 15 % of the range
   config.clearance_m = 0.0;
   EXPECT_NEAR(command_in_flight(config, {wall(wall_m, 0, pi)}, 0.0, v_W, {{100, 0, -5}, 0.0}).v_WB_W.x(), 2.0, 1e-2);
+}
+
+TEST(FlowBalance, PatchesAboveTheMaximumElevationMeasureNoObstacle) {
+  // Only the limit of the approach remains. The image shows a wall from -45 to 45 deg, pitched up by 30 deg from -15.
+  FlowBalanceConfig config = with_small_images();
+  config.loom_gain_m2ps = config.flow_gain_m2ps = 0.0;
+  config.clearance_m = 1.5;
+  const auto speed_mps = [&config](double max_elevation_rad, double pitch_rad) {
+    config.max_elevation_rad = max_elevation_rad;
+    const Goal goal{{100, 0, -5}, 0.0};
+    return command_in_flight(config, {wall(5.0, 0, pi)}, 0.0, {1.2, 0.8}, goal, {0, 0, 0}, pitch_rad).v_WB_W.x();
+  };
+  const double limited_mps = speed_mps(0.5 * pi, 0.0);
+  EXPECT_LT(limited_mps, 1.3);
+  EXPECT_NEAR(speed_mps(-pi / 18, 0.0), limited_mps, 0.2);
+  EXPECT_NEAR(speed_mps(-pi / 3, 0.0), 2.0, 1e-2);
+  EXPECT_LT(speed_mps(0.5 * pi, pi / 6), 1.3);
+  EXPECT_NEAR(speed_mps(-pi / 9, pi / 6), 2.0, 1e-2);
 }
 
 TEST(FlowBalance, AnnotatesAllFourCamerasInOneImage) {

@@ -227,6 +227,20 @@ TEST(SectionGridModule, NeverDescendsBelowItsMinimumAltitude) {
   EXPECT_EQ(altitude_m(4.0), 4.0);
 }
 
+// A hedge 1 m ahead, 2.4 m below the vehicle, is 12 deg below the horizon in an image from 10 m behind. The straight
+// path to the goal, 3 m lower and 100 m ahead, passes above it, but a vehicle that sinks at 45 deg does not.
+TEST(SectionGridModule, DescendsOnlyIfItCanSinkBeforeItMovesAhead) {
+  cv::Mat hedge = far();
+  hedge.rowRange(64, kHeightPx).setTo(11.0);
+  const auto altitude_m = [](const cv::Mat& from_behind) {
+    Pilot pilot;
+    pilot.see(from_behind, {-10.0, 0.0, -8.0});
+    return -position(pilot.see(far(), {0.0, 0.0, -8.0})).p_WB.z();
+  };
+  EXPECT_NEAR(altitude_m(far()), 8.0 - 0.03 * 2.0, 1e-9);  // 2 m ahead on the path
+  EXPECT_GT(altitude_m(hedge), 7.98);
+}
+
 TEST(SectionGridModule, SpeedDependentThresholdIncludesFartherObstaclesAtHigherSpeed) {
   SectionGridConfig config;
   config.threshold_time_s = 20.0;  // at the 1 m/s of this flight, and a radius of 1 m: 21 m

@@ -47,7 +47,7 @@ TEST(Judge, PrintsAnIntervalThatMissesItsLimitWithMoreDecimals) {
   const GroupSummary group{.group = "city", .success = {.successes = 95, .trials = 100}};  // from 0.88825
   const GroupVerdict verdict = judge({SuccessRateCheck{.at_least = 0.8883}}, {group}).at(0);
   EXPECT_FALSE(verdict.passed);
-  EXPECT_THAT(verdict.words, HasSubstr("0.8882 to 0.978 must begin at 0.8883 or above"));
+  EXPECT_THAT(verdict.words, HasSubstr("interval 0.8882; required: >= 0.8883"));
 }
 
 /// Fisher's test of 11 of 15 after 15 of 15 has the probability 0.0498.

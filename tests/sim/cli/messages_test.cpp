@@ -47,6 +47,33 @@ TEST_F(Messages, MissingFoldersAndFilesAreNamed) {
   EXPECT_EQ(refused("batch --failed-only --out gone"), "gone/batch.json: there is no such file\n");
 }
 
+TEST_F(Messages, AConfidenceWithoutACheckIsRefused) {
+  EXPECT_EQ(refused("batch tiny.yaml --confidence 0.9"),
+            "--confidence requires --min-success, --no-worse-than, --until or --until-width (see --help)\n");
+}
+
+TEST_F(Messages, UnreadableResultsAreNamedInTheIndexOfRuns) {
+  folder.shell("mkdir -p all/good all/bad");
+  folder.write("all/bad/result.json", "{");
+  const CommandEnd none = folder.hedgehop("runs all");
+  EXPECT_EQ(none.status, kBadInput);
+  EXPECT_THAT(none.err, StartsWith("all: no result in this folder tree can be read\nbad: "));
+  EXPECT_EQ(folder.hedgehop("run tiny.yaml --no-report --no-video --out all/good").status, 0);
+  const CommandEnd one = folder.hedgehop("runs all");
+  EXPECT_EQ(one.status, 0);
+  EXPECT_THAT(one.err, StartsWith("warning: bad: "));
+  EXPECT_THAT(one.out, StartsWith("1 result; written: "));
+}
+
+TEST_F(Messages, AModuleThatCannotBeLoadedEndsASweepBeforeItsFlights) {
+  folder.write("no_library.so", "text");
+  folder.write("sweep.yaml",
+               "scenario: tiny.yaml\nset: [avoidance.plugin=no_library.so]\n"
+               "parameters: [{path: start.east, values: [0, 1]}]\n");
+  EXPECT_THAT(refused("sweep sweep.yaml --out unloadable"), HasSubstr("no_library.so"));
+  EXPECT_NE(folder.shell("test -e unloadable/flights").status, 0);
+}
+
 TEST_F(Messages, PapersOutsideOfACheckoutAreExplained) {
   EXPECT_EQ(refused("reproduce perez2018"),
             "configs/papers: there is no such folder; run this command in the source checkout, or install Hedgehop\n");

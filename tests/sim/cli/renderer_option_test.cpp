@@ -70,7 +70,9 @@ TEST_F(RendererOption, FormerOptionStillWorksAndPrintsItsNewName) {
 
 TEST_F(RendererOption, RejectsUnknownNamesAndFormerKeysInOneLine) {
   EXPECT_EQ(ask("render --info --renderer tile").status, kBadInput);
-  EXPECT_EQ(ask("render --info --gl tile").status, kBadInput);
+  const Answer unknown = ask("render --info --gl tile");
+  EXPECT_EQ(unknown.status, kBadInput);
+  EXPECT_THAT(unknown.text, StartsWith("--gl: tile not in"));
   const Answer former = ask("run " HEDGEHOP_SOURCE_DIR "/configs/andert2007_tree_160.yaml --set drawing.context=tiles");
   EXPECT_EQ(former.status, kBadInput);
   EXPECT_THAT(former.text, HasSubstr("'context'"));

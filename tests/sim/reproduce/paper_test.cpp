@@ -21,6 +21,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const std::filesystem::path kPapers = HEDGEHOP_SOURCE_DIR "/configs/papers";
 
@@ -69,8 +70,12 @@ TEST(PaperFile, FormerKeysAreRejectedWithTheirNewNames) {
   const std::string flights = "flights: [{scenario: a.yaml, seeds: '1:2', ";
   EXPECT_THAT(faults_of(flights + "printed: [law=published]}]"), Contains(HasSubstr("its name is now 'published'")));
   EXPECT_THAT(faults_of(flights + "beside: '1'}]"), Contains(HasSubstr("its name is now 'sensor_seeds'")));
-  EXPECT_THAT(faults_of("rows: [{what: w, calculation: section_costs, value: x}]"),
-              Contains(HasSubstr("its name is now 'claim'")));
+  const auto of_claim = faults_of("rows: [{what: w, calculation: section_costs, value: x}]");
+  EXPECT_THAT(of_claim, Contains(HasSubstr("its name is now 'claim'")));
+  EXPECT_THAT(of_claim, Not(Contains(HasSubstr("missing key 'claim'"))));
+  EXPECT_THAT(faults_of(flights + "published: [law=published]}]\ncharts: [{title: t, series: [{from: log, label: l, "
+                                  "flights: a/printed, y: d}]}]"),
+              Contains(HasSubstr("no flights are called 'a/printed'; their name is now 'a/published'")));
   EXPECT_THAT(faults_of("rows: [{claim: w, flights: [a], column: wall_s, statistic: least}]"),
               Contains(HasSubstr("its name is now 'min'")));
   EXPECT_THAT(faults_of("charts: [{title: t, series: [{from: groups, label: l, x: [1], flights: [a], column: wall_s, "
