@@ -71,15 +71,15 @@ std::string name_of(const Participation& p, std::complex<double> eigenvalue, boo
   if (p.of({"psi"}) > kMost) return "heading";
   if (p.of({"T", "L", "M", "N"}) > kMost) return motors_name(p);
   if (p.of({"a", "b", "c", "d"}) > kMuch) return rotor_name(p);
-  constexpr double kNeutral = 1e-9;
-  if (std::abs(eigenvalue) < kNeutral && p.of({"w"}) > kMost) return "heave, neutral";
+  if (eigenvalue == 0.0 && p.of({"w"}) > kMost) return "heave, neutral";
+  if (eigenvalue == 0.0 && p.of({"psi", "w"}) > kMost) return "heading and heave, neutral";
   return eigenvalue.imag() > 0.0 ? oscillation_name(p, hovers) : real_name(p, eigenvalue.real());
 }
 
 }  // namespace
 
 std::vector<Mode> modes(const NamedLinearSystem& linear, double airspeed_mps) {
-  constexpr double kHoverMps = 1.0;
+  constexpr double kHoverMps = 1.0, kNeutralRadps = 1e-9;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(linear.system.A));
   const Eigen::VectorXcd values = solver.eigenvalues();
   const Eigen::MatrixXcd right = solver.eigenvectors();
@@ -92,10 +92,12 @@ std::vector<Mode> modes(const NamedLinearSystem& linear, double airspeed_mps) {
     const Eigen::VectorXd parts = right.col(i).cwiseProduct(left.row(i).transpose()).cwiseAbs();
     Eigen::Index largest = 0;
     parts.maxCoeff(&largest);
-    const double magnitude = std::abs(values[i]);
+    // Two eigenvalues of 0 can be computed as a complex pair.
+    const std::complex<double> value = std::abs(values[i]) < kNeutralRadps ? 0.0 : values[i];
+    const double magnitude = std::abs(value);
     const Participation participation(linear.states, parts / parts.sum());
-    out.push_back({values[i], magnitude, magnitude > 0.0 ? -values[i].real() / magnitude : 0.0,
-                   name_of(participation, values[i], std::abs(airspeed_mps) < kHoverMps),
+    out.push_back({value, magnitude, magnitude > 0.0 ? -value.real() / magnitude : 0.0,
+                   name_of(participation, value, std::abs(airspeed_mps) < kHoverMps),
                    right.col(i) / right(largest, i)});
   }
   std::sort(out.begin(), out.end(), [](const Mode& a, const Mode& b) {

@@ -79,7 +79,8 @@ class Gatherer {
     batch_.faults.insert(batch_.faults.end(), files.faults.begin(), files.faults.end());
     if (files.yaml.empty() && files.faults.empty())
       batch_.faults.push_back(fmt::format("{}: no *.yaml or *.yml in this folder", input.string()));
-    for (const fs::path& file : files.yaml) add_file(file);
+    read_each(
+        files, [this](const fs::path& file) { add_file(file); }, [this] { return used_files(); });
     if (std::string words = left_out_words(files, used_files()); !words.empty())
       batch_.left_out.push_back(std::move(words));
   }

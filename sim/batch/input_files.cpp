@@ -7,7 +7,9 @@
 #include <cctype>
 
 #include "sim/config/config_tree.h"
+#include "sim/config/include.h"
 #include "sim/flight/words.h"
+#include "sim/scenario/file_kind.h"
 
 namespace hedgehop::sim {
 namespace {
@@ -127,6 +129,25 @@ FolderFiles files_of(const fs::path& folder, bool recursive) {
   std::ranges::sort(files.links);
   std::ranges::sort(files.faults);
   return files;
+}
+
+void read_each(const FolderFiles& files, const std::function<void(const fs::path&)>& read,
+               const std::function<std::set<fs::path>()>& used) {
+  std::vector<fs::path> parts;
+  for (const fs::path& file : files.yaml) {
+    ErrorList ignored("file");
+    const Node root = load_tree(file, ignored);
+    if (ignored.empty() && !root.incomplete && !is_command_file(root)) {
+      parts.push_back(file);
+    } else {
+      read(file);
+    }
+  }
+  const std::set<fs::path> in_use = parts.empty() ? std::set<fs::path>() : used();
+  std::error_code error;
+  for (const fs::path& part : parts) {
+    if (!in_use.contains(fs::weakly_canonical(part, error))) read(part);
+  }
 }
 
 std::string left_out_words(const FolderFiles& files, const std::set<fs::path>& used) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -24,6 +25,11 @@ struct FolderFiles {
 /// Returns the files of a folder. Hidden files and folders do not count; links to folders are not followed.
 /// @param recursive  whether subfolders are read.
 FolderFiles files_of(const std::filesystem::path& folder, bool recursive);
+
+/// Calls `read` for each YAML file of a folder. Parts of scenarios, such as a rig, are read last, and only if no
+/// scenario uses them: `used` returns the files that have been used so far, canonical.
+void read_each(const FolderFiles& files, const std::function<void(const std::filesystem::path&)>& read,
+               const std::function<std::set<std::filesystem::path>()>& used);
 
 /// Returns one line that names the files that are left out, or "". @param used  files that scenarios use, canonical;
 /// they are not left out.

@@ -53,14 +53,17 @@ void declare_batch(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const command = app.add_subcommand("batch", "fly many scenarios, each flight in its own process");
   const auto options = std::make_shared<BatchOptions>();
   options->jobs = usable_cores();
-  auto* const files =
-      command->add_option("FILES", options->inputs, "scenarios, campaigns (files with the key `flights`) or folders");
+  auto* const files = command->add_option(
+      "FILES", options->inputs, "scenarios, campaigns (files with the key `flights` or `leaderboard`) or folders");
   command->add_flag("--recursive", options->recursive, "also read the subfolders of folders")->needs(files);
   command->add_option("--seeds", options->seeds, "seeds of each scenario, such as 1:10 or 1:3,7");
   add_overrides(*command, options->overrides, "override a value of every scenario; may be repeated");
   add_renderer(*command, options->renderer);
   add_flying(*command, *options);
-  command->add_option("--out", options->out, "output folder")->type_name("DIR");
+  command
+      ->add_option("--out", options->out,
+                   "output folder; default out/NAME, after the file, or out/batch for several files")
+      ->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command
       ->add_option("--keep", options->keep,
@@ -197,7 +200,7 @@ void declare_sweep(CLI::App& app, std::function<int()>& chosen) {
   command->add_option("SWEEP", options->file, "sweep file (YAML)")->required();
   add_overrides(*command, options->overrides, "override a value of the scenario at every point; may be repeated");
   add_flying(*command, *options);
-  command->add_option("--out", options->out, "output folder")->type_name("DIR");
+  command->add_option("--out", options->out, "output folder; default out/NAME, after the file")->type_name("DIR");
   command->add_option("--junit", options->junit, "write a JUnit file for CI")->type_name("FILE");
   command->add_option("--shard", options->shard, "fly one part of the sweep, such as 2/8")->type_name("I/N");
   auto* const merge =
@@ -242,7 +245,7 @@ void declare_falsify(CLI::App& app, std::function<int()>& chosen) {
   add_overrides(*command, options->overrides,
                 "override a value of the search file, e.g. --set design.method=random; may be repeated");
   add_flying(*command, *options, "then the flight is killed and counts as not flown");
-  command->add_option("--out", options->out, "output folder")->type_name("DIR");
+  command->add_option("--out", options->out, "output folder; default out/NAME, after the file")->type_name("DIR");
   command->add_option("--program", options->program)->group("");  // hidden: for tests
   command->callback([&chosen, options] { chosen = [options] { return falsify(*options); }; });
 }
@@ -258,7 +261,7 @@ void declare_branch(CLI::App& app, std::function<int()>& chosen) {
       ->required()
       ->type_name("S");
   add_overrides(*command, options->overrides,
-                "a setting after the change: avoidance, failures that begin later, duration, checks");
+                "a setting after the change: avoidance, failures that begin later, duration, checks, may_collide");
   command->add_option("--out", options->out, "output folder, one subfolder per flight; branches of one run share it")
       ->type_name("DIR");
   command->callback([&chosen, options] { chosen = [options] { return branch(*options); }; });

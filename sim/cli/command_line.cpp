@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -132,21 +133,21 @@ void declare_calibration(CLI::App& app, std::function<int()>& chosen, Calibratio
 void declare_list(CLI::App& app, std::function<int()>& chosen, std::string& topic) {
   CLI::App* const command = app.add_subcommand(
       "list",
-      "list the keys of scenarios, sweeps and campaigns, and the valid modules, vehicles, scenes, cameras and checks");
+      "list the keys of scenarios, sweeps, campaigns, searches and plans, and the valid modules, vehicles, scenes, "
+      "cameras and checks");
   command
       ->add_option("TOPIC", topic,
-                   "modules, vehicles, scenes, cameras, checks; scenario: all other keys; sweep, campaign: the keys of "
-                   "these files")
+                   "modules, vehicles, scenes, cameras, checks; scenario: all other keys; sweep, campaign, search, "
+                   "plan: the keys of these files")
       ->required()
       ->check(CLI::IsMember(list_topics()));
   command->callback([&] { chosen = [&topic] { return cli::list(topic); }; });
 }
 
 void declare_schema(CLI::App& app, std::function<int()>& chosen, std::string& kind) {
-  CLI::App* const command =
-      app.add_subcommand("schema", "print the JSON Schema of scenario, sweep or campaign files, for editors");
-  command->add_option("KIND", kind, "scenario (default), sweep or campaign")
-      ->check(CLI::IsMember({"scenario", "sweep", "campaign"}));
+  CLI::App* const command = app.add_subcommand("schema", "print the JSON Schema of a kind of file, for editors");
+  command->add_option("KIND", kind, "scenario (default), sweep, campaign, search or plan")
+      ->check(CLI::IsMember({"scenario", "sweep", "campaign", "search", "plan"}));
   command->callback([&] { chosen = [&kind] { return cli::schema(kind); }; });
 }
 
@@ -168,6 +169,7 @@ void declare_manual(CLI::App& app, std::function<int()>& chosen, std::string& fo
 std::string usage_fault(const CLI::Error& error) {
   constexpr std::string_view kBefore = ": 1 required ", kAfter = " missing";
   std::string text = one_line(error.what());
+  if (text == "TOPIC is required") return fmt::format("{}; valid: {}", text, fmt::join(list_topics(), ", "));
   if (text.starts_with(": ")) text = "--gl" + text;  // CLI11 does not name a hidden option
   const size_t at = text.find(kBefore);
   if (at == std::string::npos || !text.ends_with(kAfter)) return text;

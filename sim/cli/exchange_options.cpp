@@ -62,9 +62,10 @@ void declare_export(CLI::App& app, std::function<int()>& chosen, ExportOptions& 
   command->add_flag("--compressed-images", data.compressed_images,
                     "in rosbag2, images as PNG (CompressedImage) instead of Image");
   command
-      ->add_option("--out", data.out,
-                   "output folder, which must not exist or be empty; default <format> in the folder of the run, or "
-                   "out/<name>-seed<seed>/<format>")
+      ->add_option(
+          "--out", data.out,
+          "output folder, which must not exist, or must be empty; default <format> in the folder of the run, or "
+          "out/<name>-seed<seed>/<format>")
       ->type_name("DIR");
   command->callback([&] { chosen = [&data] { return cli::export_run(data); }; });
 }

@@ -161,7 +161,7 @@ class FalsifyRun {
     fmt::print("{}{}", mixture_words(result.records), truth_words(result.records));
     const size_t not_flown = print_not_flown(result.records);
     if (failures == 0) {
-      fmt::print("no failure in {}: none was found, which is no proof of safety\n",
+      fmt::print("no failure in {}, which is no proof of safety\n",
                  counted(result.records.size() - not_flown, "flight"));
     } else {
       fmt::print("{}, {} of {}, the first after {}; {}\n", counted(result.records.size(), "flight"),

@@ -12,6 +12,8 @@
 #include "sim/cli/vehicle_commands.h"
 #include "sim/config/input_error.h"
 #include "sim/config/outline_texts.h"
+#include "sim/evidence/conduct.h"
+#include "sim/falsify/falsify_file.h"
 #include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/film_strip.h"
@@ -63,7 +65,7 @@ void print_remarks(const FlightParts& parts) {
 
 std::vector<std::string> list_topics() {
   std::vector<std::string> topics = document_topics();
-  topics.insert(topics.end(), {"sweep", "campaign"});
+  topics.insert(topics.end(), {"sweep", "campaign", "search", "plan"});
   return topics;
 }
 
@@ -74,6 +76,10 @@ int list(const std::string& topic) {
   } else if (topic == "campaign") {
     fmt::print("{}\nchecks, each one of:\n\n{}", document_fields(outline_fields(CampaignConfig{}), 0),
                describe_choices<CampaignCheck>());
+  } else if (topic == "search") {
+    fmt::print("{}", document_fields(outline_fields(FalsifyConfig{}), 0));
+  } else if (topic == "plan") {
+    fmt::print("{}", document_fields(outline_fields(PlanConfig{}), 0));
   } else {
     fmt::print("{}{}", document(topic), topic == "vehicles" ? vehicle_files_text() : "");
   }
@@ -85,6 +91,10 @@ int schema(const std::string& kind) {
     fmt::print("{}\n", schema_text(outline_fields(SweepConfig{}), "Hedgehop sweep"));
   } else if (kind == "campaign") {
     fmt::print("{}\n", schema_text(outline_fields(CampaignConfig{}), "Hedgehop campaign"));
+  } else if (kind == "search") {
+    fmt::print("{}\n", schema_text(outline_fields(FalsifyConfig{}), "Hedgehop failure search"));
+  } else if (kind == "plan") {
+    fmt::print("{}\n", schema_text(outline_fields(PlanConfig{}), "Hedgehop plan"));
   } else {
     fmt::print("{}\n", json_schema());
   }

@@ -120,7 +120,8 @@ class Validator {
     if (files.yaml.empty() && files.faults.empty()) {
       refuse({fmt::format("{}: no *.yaml or *.yml in this folder", input.string())});
     }
-    for (const std::filesystem::path& file : files.yaml) check(file);
+    read_each(
+        files, [this](const std::filesystem::path& file) { check(file); }, [this] { return used_; });
     if (const std::string words = left_out_words(files, used_); !words.empty()) notice(words + "\n");
   }
 

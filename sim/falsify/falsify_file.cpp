@@ -144,6 +144,13 @@ FalsifySearch read_falsify(const std::filesystem::path& file, std::span<const st
     add_boxes(*config.boxes, search);
   }
   add_parameters(config.parameters, search);
+  const size_t boxes = search.sweep.parameters.size() - config.parameters.size();
+  for (size_t i = 0; i < config.parameters.size(); ++i) {
+    search.sweep.parameters[boxes + i].position = position_of(root, fmt::format("parameters.{}.path", i));
+  }
+  for (size_t i = 0; i < config.set.size(); ++i) {
+    search.sweep.set_positions.push_back(position_of(root, fmt::format("set.{}", i)));
+  }
   if (config.design.method == FalsifyDesign::Method::direct && search.sweep.parameters.size() > kMaxForDirect) {
     faults.add(position_of(root, "design"), fmt::format("'direct' supports up to {} unknowns; there are {}",
                                                         kMaxForDirect, search.sweep.parameters.size()));

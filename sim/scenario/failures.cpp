@@ -96,6 +96,15 @@ int64_t to_ns(double t_s) { return std::llround(t_s * 1e9); }
 int64_t FailureConfig::from_ns() const { return to_ns(at_s); }
 int64_t FailureConfig::until_ns() const { return until_s ? to_ns(*until_s) : std::numeric_limits<int64_t>::max(); }
 
+namespace {
+
+/// Whether a vehicle can have a device of this name.
+bool is_device(std::string_view name) {
+  return sensor_of(name) || name.starts_with(kMotor) || std::ranges::find(kServos, name) != std::end(kServos);
+}
+
+}  // namespace
+
 std::vector<std::string> failing_names(const FailingParts& parts) {
   std::vector<std::string> names;
   for (const SensorName& sensor : kSensors) {
@@ -126,7 +135,7 @@ std::vector<FieldError> failure_errors(std::span<const FailureConfig> failures, 
     if (f.until_s && *f.until_s > duration_s)
       add("until", fmt::format("is after the end of the flight ({} s)", duration_s));
     if (std::ranges::find(names, f.what) == names.end()) {
-      const std::string fault = sensor_of(f.what) ? "'{}' is not on board or is not used" : "unknown device '{}'";
+      const std::string fault = is_device(f.what) ? "'{}' is not on board or is not used" : "unknown device '{}'";
       add("what", fmt::format(fmt::runtime(fault + "{}"), f.what, suggestion(f.what, allowed)));
       continue;
     }

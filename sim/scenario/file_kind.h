@@ -10,4 +10,7 @@ struct Node;
 /// it is of no known kind.
 std::string file_kind(const Node& root);
 
+/// Whether the keys are those of a file for a command, such as a scenario, and not those of a part of a scenario.
+bool is_command_file(const Node& root);
+
 }  // namespace hedgehop::sim

@@ -123,7 +123,9 @@ std::string array_script(const SlurmJob& job) {
 
 std::string merge_script(const SlurmJob& job) {
   const std::string junit = job.junit.empty() ? "" : " --junit " + shell_quoted(job.junit.string());
-  return header(job, "hedgehop-merge", "merge.log", 1) + sweep_command(job) + " --merge" + junit + "\n";
+  return header(job, "hedgehop-merge", "merge.log", 1) +
+         "# Hedgehop submits this script with --dependency=afterany:JOB, the number of the job array.\n" +
+         sweep_command(job) + " --merge" + junit + "\n";
 }
 
 std::string submit(const SlurmJob& job) {

@@ -33,6 +33,18 @@ TEST(Modes, OfAMulticopterWithSeparateAxesHaveTheirNames) {
               testing::IsSupersetOf({"heading", "heave, neutral", "yaw subsidence", "motors, thrust", "motors, roll"}));
 }
 
+TEST(Modes, NeutralModesAreHeadingAndHeaveAtEverySpeed) {
+  for (const double speed_mps : {0.0, 1.0, 2.0, 5.0, 10.0, 20.0}) {
+    int neutral = 0;
+    for (const Mode& mode : modes(*linear_system(multicopter::MulticopterConfig{}, {speed_mps, 0.0, 0.0}), speed_mps)) {
+      if (mode.frequency_radps > 0.0) continue;
+      EXPECT_THAT(mode.name, testing::AnyOf("heading", "heave, neutral", "heading and heave, neutral")) << speed_mps;
+      ++neutral;
+    }
+    EXPECT_GE(neutral, 1) << speed_mps;
+  }
+}
+
 /// A rigid body whose roll rate decays: the closed form of one mode.
 TEST(Modes, NameTheRollSubsidence) {
   NamedLinearSystem linear{{"p", "phi", "u"}, {}, {"rad/s", "rad", "m/s"}, {}, {}};

@@ -56,6 +56,24 @@ TEST(FilesOfAFolder, AreNotLeftOutIfAScenarioUsesThem) {
   EXPECT_THAT(left_out_words(files_of(folder.path(), false), {used}), Not(HasSubstr("path.csv")));
 }
 
+TEST(FilesOfAFolder, PartsAreReadLastAndOnlyIfNoScenarioUsesThem) {
+  const TemporaryFolder folder;
+  write_file_whole(folder.path() / "a_rig.yaml", "cameras: []\n");
+  write_file_whole(folder.path() / "b_scene.yaml", "type: urban\n");
+  write_file_whole(folder.path() / "c_flight.yaml", "scene: {use: b_scene.yaml}\n");
+  std::vector<std::string> read;
+  std::set<std::filesystem::path> used;
+  read_each(
+      files_of(folder.path(), false),
+      [&](const std::filesystem::path& file) {
+        read.push_back(file.filename().string());
+        if (read.back() == "c_flight.yaml")
+          used.insert(std::filesystem::weakly_canonical(folder.path() / "b_scene.yaml"));
+      },
+      [&] { return used; });
+  EXPECT_THAT(read, ElementsAre("c_flight.yaml", "a_rig.yaml"));
+}
+
 TEST(ModulePaths, AreRelativeToTheFolderOfTheirFile) {
   const auto moved = with_module_paths({"avoidance={plugin: lib/mine.so, module: mine}", "avoidance.plugin=mine.so",
                                         "avoidance={module: mine, plugin: '../a b.so'}", "avoidance.python=mine.py",

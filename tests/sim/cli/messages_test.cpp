@@ -35,6 +35,7 @@ TEST_F(Messages, AnUnknownOptionBeforeACommandListsThoseOfTheProgram) {
 TEST_F(Messages, AMissingValueIsNamed) {
   EXPECT_EQ(refused("batch tiny.yaml --seeds"), "--seeds: a value is missing (see --help)\n");
   EXPECT_EQ(refused("run tiny.yaml --set"), "--set: a value is missing (KEY.PATH=VALUE) (see --help)\n");
+  EXPECT_THAT(refused("list"), HasSubstr("TOPIC is required; valid: modules, vehicles"));
 }
 
 TEST_F(Messages, MissingFoldersAndFilesAreNamed) {

@@ -38,7 +38,7 @@ TEST(Failures, OfUnknownThingsNameTheNearest) {
               ElementsAre(HasSubstr("'failures.0.what': unknown device 'camera.fornt'; did you mean "
                                     "'camera.front'?")));
   EXPECT_THAT(faults_with("[{at: 1, what: motor.0, mode: off}]"),
-              ElementsAre(HasSubstr("unknown device 'motor.0'")));  // of a helicopter
+              ElementsAre(HasSubstr("'motor.0' is not on board")));  // of a helicopter
 }
 
 TEST(Failures, OfInstrumentsThatAreNotOnBoardHaveNoEffectAndAreRefused) {
