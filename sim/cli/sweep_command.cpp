@@ -69,7 +69,8 @@ struct FlownSweep {
 
 /// Writes the design of the sweep, which the page needs in addition to the table.
 void write_design(const SweepRun& run, const std::vector<std::string>& design_points, size_t block) {
-  nlohmann::ordered_json json{{"design", ""}, {"parameters", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{
+      {"description", run.sweep.description}, {"design", ""}, {"parameters", nlohmann::ordered_json::array()}};
   std::visit([&]<class Design>(const Design&) { json["design"] = Design::kName; }, run.sweep.design);
   for (const SweepParameter& p : run.sweep.parameters) {
     json["parameters"].push_back({{"path", p.path}, {"log", p.scale == SweepParameter::Scale::log}});

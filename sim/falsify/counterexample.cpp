@@ -108,6 +108,7 @@ std::string falsify_json(const FalsifySearch& search, const FalsifyResult& resul
   constexpr const char* kMethods[] = {"cma_es", "direct", "random"};
   Json json{{"version", std::string(version())},
             {"build", std::string(build_identity())},
+            {"description", search.config.description},
             {"search", search.identity},
             {"method", kMethods[static_cast<size_t>(search.config.design.method)]},
             {"seed", search.config.design.seed},

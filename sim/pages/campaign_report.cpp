@@ -68,6 +68,17 @@ std::set<std::string> control_groups(const Json& board) {
 /// Whether a stopping rule decided on the number of flights.
 bool has_stopping_rule(const Json& conduct) { return !conduct.is_null() && !conduct.at("sequential").empty(); }
 
+/// Returns the description that the file of a batch, a sweep or a search states; "" if it states none.
+std::string description_of(const std::filesystem::path& folder, const Json& conduct) {
+  if (conduct.is_object() && conduct.contains("description")) return conduct["description"].get<std::string>();
+  for (const char* const name : {"sweep.json", "falsify.json"}) {
+    if (!std::filesystem::exists(folder / name)) continue;
+    const Json record = read_json(folder / name);
+    if (record.is_object()) return record.value("description", "");
+  }
+  return "";
+}
+
 /// Returns the result of a search for failures with the paths of the stored failures; null for any other campaign.
 Json search_data(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "falsify.csv")) return nullptr;
@@ -146,6 +157,7 @@ void write_campaign_report(const std::filesystem::path& folder, const std::optio
   const std::set<std::string> controls = control_groups(data["leaderboard"]);
   data["controls"] = controls;
   data["claims"] = claims_data(folder, flights.records, controls);
+  data["description"] = description_of(folder, data["claims"]["conduct"]);
   data["groups"] = groups_data(flights.records, data["claims"]["method"] == "anytime", controls);
   data["columns"] = columns_data(flights.table, notes);
   for (const char* key : {"why", "failed", "report", "replay"}) data[key] = Json::array();

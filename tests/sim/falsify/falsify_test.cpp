@@ -44,18 +44,21 @@ class Falsify : public ::testing::Test {
 /// A check that is not searched fails in every flight.
 TEST_F(Falsify, PageCountsAndNamesTheSearchedChecks) {
   HEDGEHOP_NEEDS_BROWSER();
-  folder.write("search.yaml", search("") +
-                                  "set: ['checks=[{check: formula, name: keeps_clear, formula: "
-                                  "\"always (obstacle_clearance >= 0.5)\"}, {check: max_speed, at_most: 0.1}]']\n");
+  folder.write("search.yaml",
+               search("") +
+                   "description: purpose of the search\nset: ['checks=[{check: formula, name: keeps_clear, formula: "
+                   "\"always (obstacle_clearance >= 0.5)\"}, {check: max_speed, at_most: 0.1}]']\n");
   const CommandEnd end = folder.hedgehop("falsify search.yaml --out out -j 2 --set design.budget=3");
   ASSERT_LE(end.status, 1) << end.err;
   EXPECT_EQ(folder.json("out/falsify.json").at("checks"), nlohmann::ordered_json::array({"keeps_clear"}));
   const PageVisit page = visit(folder.path() / "out/report.html", R"js(
     const data = JSON.parse(document.getElementById('data').textContent);
     const holds = data.columns.find(({name}) => name === 'robustness').values.filter((v) => v >= 0).length;
-    return [document.querySelector('.tile').textContent, holds, document.getElementById('search-card').textContent, data.groups[0].passed];)js");
+    return [document.querySelector('.tile').textContent, holds, document.getElementById('search-card').textContent, data.groups[0].passed,
+      document.querySelector('h1').nextSibling.textContent];)js");
   EXPECT_THAT(page.errors, ::testing::IsEmpty());
   EXPECT_EQ(page.value[3], 0) << "flights in which all checks hold";
+  EXPECT_EQ(page.value[4], "purpose of the search");
   EXPECT_GT(page.value[1], 0);
   EXPECT_THAT(page.value[0].get<std::string>(),
               HasSubstr("searched checks hold" + std::to_string(page.value[1].get<int>()) + " of "));

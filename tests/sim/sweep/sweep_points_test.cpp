@@ -120,12 +120,14 @@ TEST_F(PointsOfASweep, HaveFaultsWithTheLineOfTheFile) {
 TEST_F(PointsOfASweep, OfASobolDesignWithIndicesFormBlocks) {
   folder.write(
       "s.yaml",
-      "scenario: tiny.yaml\nseeds: 1\nset: [duration=0.1]\ndesign: {type: sobol, points: 4, indices: true}\n"
+      "description: purpose of the sweep\nscenario: tiny.yaml\nseeds: 1\nset: [duration=0.1]\n"
+      "design: {type: sobol, points: 4, indices: true}\n"
       "parameters:\n  - {path: avoidance.speed, from: 0.5, to: 2}\n  - {path: wind.speed, from: 0.1, to: 1}\n");
   ASSERT_EQ(folder.hedgehop("sweep s.yaml --out out").status, 0);
   EXPECT_EQ(Table(folder.path() / "out/sweep.csv").rows(), 16u);
   const auto design = folder.json("out/sweep.json");
   EXPECT_EQ(design.at("block"), 4);
+  EXPECT_THAT(folder.read("out/report.html"), HasSubstr("\"description\":\"purpose of the sweep\""));
   EXPECT_EQ(design.at("points").size(), 16u);
 }
 

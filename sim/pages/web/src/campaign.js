@@ -44,7 +44,7 @@ function fillHead(host, data, table) {
   }
   for (const line of data.mixture.split('\n').filter(Boolean)) host.append(make('p', 'bad-text', line));
   host.append(make('h1', '', data.name));
-  if (data.claims.conduct?.description) host.append(make('p', '', data.claims.conduct.description));
+  if (data.description) host.append(make('p', '', data.description));
   const swept = data.swept.length ? `, over ${data.swept.join(', ')}` : '';
   const control = data.controls.reduce((sum, group) => sum + table.rowsOf(group).length, 0), ofControl = control ? `, ${control} of them of the control` : '';
   host.append(make('p', 'soft', `${data.search ? 'search' : data.is_sweep ? 'sweep' : 'batch'} of ${data.scenarios.join(', ')}${swept}; ${countOf(table.count, 'flight')}${ofControl}; Hedgehop ${data.version}, build ${data.builds.length === 1 ? data.builds[0] : data.build}`));
