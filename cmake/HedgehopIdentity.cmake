@@ -1,5 +1,5 @@
-# The identity of the build, stored in every result: a hash of all compiled sources, the compiler and its flags. It is made
-# at build time and is equal for equal sources inside and outside a git checkout.
+# The identity of the build, stored in every result: a hash of the sources that determine flights and figures, of the compiler and
+# of its flags. It is made at build time and is equal for equal sources inside and outside a git checkout.
 include_guard()
 
 set(identity ${PROJECT_BINARY_DIR}/generated/sim/flight/build_identity.h)

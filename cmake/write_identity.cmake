@@ -1,6 +1,8 @@
-# Writes the identity of the sources below SOURCE_DIR into HEADER if the identity has changed.
+# Writes the identity of the sources below SOURCE_DIR into HEADER if the identity has changed. Commands and pages are not part
+# of it, so flights remain valid when only these change.
 cmake_minimum_required(VERSION 3.25)
 set(folders scenes vision dynamics avoidance sim cmake)
+set(observers sim/cli sim/flightlog sim/pages)  # no other folder may include them
 # Editors and Python add other files, which must not change the identity.
 set(source "/([^./][^/]*[.](cmake|cpp|css|h|html|in|js|json|py|pyi|txt|typed)|[.]npmrc)$")
 set(generated "/(node_modules|__pycache__|[.][^/]+)/")
@@ -17,6 +19,8 @@ foreach(folder IN LISTS folders)
 endforeach()
 set(lists CMakeLists.txt CMakePresets.json)
 list(APPEND files ${lists})
+list(JOIN observers "|" pattern)
+list(FILTER files EXCLUDE REGEX "^(${pattern})/")
 list(SORT files)
 set(text "${COMPILER}\n${FLAGS}\n")
 foreach(file IN LISTS files)
@@ -30,9 +34,10 @@ string(SUBSTRING ${hash} 0 16 hash)
 set(commit "")
 find_program(git git)
 if(git AND EXISTS "${SOURCE_DIR}/.git")
-  execute_process(COMMAND ${git} -C "${SOURCE_DIR}" log -1 --abbrev=10 --format=%h -- ${folders} ${lists}
+  list(TRANSFORM observers PREPEND ":(exclude)")
+  execute_process(COMMAND ${git} -C "${SOURCE_DIR}" log -1 --abbrev=10 --format=%h -- ${folders} ${lists} ${observers}
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  execute_process(COMMAND ${git} -C "${SOURCE_DIR}" status --porcelain --untracked-files=all -- ${folders} ${lists}
+  execute_process(COMMAND ${git} -C "${SOURCE_DIR}" status --porcelain --untracked-files=all -- ${folders} ${lists} ${observers}
                   OUTPUT_VARIABLE changes ERROR_QUIET)
   string(REGEX REPLACE "\n" ";" changes "${changes}")
   list(TRANSFORM changes REPLACE "^.. " "/")

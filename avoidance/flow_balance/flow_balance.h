@@ -70,8 +70,9 @@ void describe(Visitor& v, fields::ConfigOf<FlowBalanceConfig> auto& c) {
      .at_least = -60.0,
      .at_most = 90.0,
      .meaning =
-         "modified law: patches centered higher above the horizon measure no obstacles; negative below buildings, "
-         "because a smooth sky yields false flow while the vehicle tilts; 90: all patches count"});
+         "modified law: only patches centered below this elevation over the horizon measure obstacles; use a negative "
+         "value when flying below the tops of buildings, because a smooth sky yields false flow while the vehicle "
+         "tilts; 90: all patches count"});
   v("memory", c.memory_s,
     {.unit = "s",
      .above = 0.0,

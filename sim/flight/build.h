@@ -7,8 +7,8 @@ namespace hedgehop::sim {
 /// Returns the version of Hedgehop, "MAJOR.MINOR.PATCH".
 std::string_view version();
 
-/// Returns a hash of all compiled sources, the compiler and its options, as 16 hexadecimal digits. Builds with equal
-/// identity fly equal flights with the same libraries.
+/// Returns a hash of the compiled sources except commands and pages, of the compiler and of its options, as 16
+/// hexadecimal digits. Builds with equal identity fly equal flights with the same libraries.
 std::string_view build_identity();
 
 /// Returns the last commit that changed these sources, such as "44e015e" or "44e015e and changes"; empty if they are

@@ -83,6 +83,22 @@ class CMakeFiles(unittest.TestCase):
         self.write(tree / "sim/web/.npmrc", "x")  # a source of the pages
         self.assertNotEqual(self.identity(tree), before)
 
+    def test_commands_and_pages_which_no_other_folder_includes_do_not_change_the_identity(self):
+        tree = self.tree("plain")
+        before = self.identity(tree)
+        table = re.search(r"set\(HEDGEHOP_LAYERS(.*?)\)", (SOURCE.parent / "CMakeLists.txt").read_text(), re.S)[1]
+        layers = dict(re.findall(r'"(\S+):(.*?)"', table))
+        free = []
+        for folder in layers:
+            file = self.write(tree / folder / "b.h", "")
+            if self.identity(tree) == before:
+                free.append(folder)
+            file.unlink()
+        self.assertIn("sim/pages", free)
+        for folder, below in layers.items():
+            if folder not in free:
+                self.assertFalse(set(below.split()) & set(free), folder)
+
     def test_a_folder_without_sources_is_an_error(self):
         tree = self.tree("plain")
         (tree / "scenes/a.cpp").unlink()
