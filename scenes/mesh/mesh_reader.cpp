@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "scenes/mesh/dae_check.h"
+#include "scenes/mesh/ply_check.h"
 #include "sim/fields/file_fault.h"
 #include "sim/fields/utf8_mark.h"
 
@@ -48,33 +48,6 @@ int json_nesting(std::string_view json) {
     }
   }
   return deepest;
-}
-
-/// Returns whether each line of the header of a PLY begins with a keyword, up to `end_header`. Without, the importer
-/// would not end.
-bool has_ply_header(const std::string& ply) {
-  static const std::set<std::string_view> kKeywords{"ply", "format", "comment", "obj_info", "element", "property"};
-  std::istringstream lines(ply);
-  for (std::string line; std::getline(lines, line);) {
-    const std::string_view word = std::string_view(line).substr(0, line.find_first_of(" \t\r"));
-    if (word == "end_header") return true;
-    if (!kKeywords.contains(word)) return false;
-  }
-  return false;
-}
-
-/// Returns whether the header of a PLY announces more elements than the file has bytes. The importer would reserve
-/// their memory.
-bool announces_too_much(std::string_view ply) {
-  double elements = 0.0;
-  const std::string_view header = ply.substr(0, ply.find("end_header"));
-  for (size_t at = header.find("element"); at != std::string_view::npos; at = header.find("element", at + 1)) {
-    std::istringstream line(std::string(header.substr(at, 200)));
-    std::string word, name;
-    double count = 0.0;
-    if (line >> word >> name >> count) elements += std::abs(count);
-  }
-  return elements > static_cast<double>(ply.size());
 }
 
 uint32_t number_at(std::string_view file, size_t at) {
@@ -149,8 +122,8 @@ std::string require_importable(const std::filesystem::path& mesh) {
   }
   const std::string dae_fault = suffix == ".dae" ? fault_of_dae(text) : "";
   refuse_if(!dae_fault.empty(), dae_fault);
-  refuse_if(suffix == ".ply" && !has_ply_header(text), "its header is not that of a PLY");
-  refuse_if(suffix == ".ply" && announces_too_much(text), "it has fewer bytes than elements");
+  const std::string ply_fault = suffix == ".ply" ? fault_of_ply(text) : "";
+  refuse_if(!ply_fault.empty(), ply_fault);
   return suffix == ".obj" ? std::string(without_utf8_mark(text)) : text;
 }
 

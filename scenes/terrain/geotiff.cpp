@@ -37,7 +37,8 @@ std::string tag_name(uint32_t tag) {
   return std::to_string(tag);
 }
 
-std::string type_name(TIFFDataType type) {
+/// @param type  of a file, so it can be beyond TIFFDataType.
+std::string type_name(unsigned type) {
   for (const auto& [one, name] : {std::pair{TIFF_DOUBLE, "64-bit floats"},
                                   {TIFF_FLOAT, "32-bit floats"},
                                   {TIFF_LONG, "32-bit integers"},
@@ -55,8 +56,9 @@ template <class T>
 std::vector<T> tag_values(TIFF* tiff, uint32_t tag) {
   const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
   if (!field) return {};
-  if (TIFFFieldDataType(field) != kDataType<T>) {  // the values would be read past their end
-    throw std::invalid_argument("its tag " + tag_name(tag) + " has " + type_name(TIFFFieldDataType(field)) +
+  const unsigned type = TIFFFieldDataType(field);
+  if (type != kDataType<T>) {  // the values would be read past their end
+    throw std::invalid_argument("its tag " + tag_name(tag) + " has " + type_name(type) +
                                 "; valid: " + type_name(kDataType<T>));
   }
   T* values = nullptr;

@@ -162,7 +162,7 @@ class MessageReader {
         static_cast<size_t>(rows) * static_cast<size_t>(cols) * static_cast<size_t>(CV_ELEM_SIZE(type));
     const std::string_view pixels = take_bytes(count);
     image.create(rows, cols, type);
-    std::memcpy(image.data, pixels.data(), pixels.size());
+    if (!pixels.empty()) std::memcpy(image.data, pixels.data(), pixels.size());
   }
   template <class T>
   void take(T& value) {

@@ -31,12 +31,15 @@ class Examiner {
     const auto known = [](const std::string& sensor) { return sensor == "ideal" || sensor == "dull"; };
     if (!std::ranges::all_of(flights.sensors, known)) fault(at + ".sensors", "valid sensors: ideal, dull");
     if (flights.sensor_seeds && flights.sensors.empty()) fault(at + ".sensor_seeds", "'sensor_seeds' needs 'sensors'");
+    if (flights.published_seeds && flights.published.empty())
+      fault(at + ".published_seeds", "'published_seeds' needs 'published'");
     const std::string wrong = judging_fault(flights.tuned_on ? flights.tuned_on : tuned_on_, flights.seeds);
     if (!wrong.empty()) {
       fault(at + ".seeds", wrong);
       return;
     }
-    part(flights.quick, flights.seeds, at + ".quick");
+    part(flights.published_seeds, flights.seeds, at + ".published_seeds");
+    part(flights.quick, flights.published_seeds.value_or(flights.seeds), at + ".quick");
     part(flights.sensor_seeds, flights.seeds, at + ".sensor_seeds");
   }
 
@@ -161,6 +164,7 @@ std::vector<FlightGroup> flight_groups(const Paper& paper) {
     if (!flights.published.empty()) {
       FlightGroup& published = groups.emplace_back(modified);
       published.name += "/published";
+      published.seeds = flights.published_seeds.value_or(flights.seeds);
       published.set.insert(published.set.end(), flights.published.begin(), flights.published.end());
     }
     for (const std::string& sensor : flights.sensors) {

@@ -21,6 +21,7 @@ struct PaperFlights {
   std::optional<std::string> quick;     ///< seeds of a quick run; empty: not part of it
   std::vector<std::string> set;
   std::vector<std::string> published;
+  std::optional<std::string> published_seeds;
   std::vector<std::string> sensors;
   std::optional<std::string> sensor_seeds;
 };
@@ -33,7 +34,9 @@ void describe(Visitor& v, fields::ConfigOf<PaperFlights> auto& c) {
   v("tuned_on", c.tuned_on, {.meaning = "tuning seeds of this entry; default: the file's"});
   v("quick", c.quick, {.meaning = "subset of the seeds that --quick flies; default: no seeds"});
   v("set", c.set, {.meaning = "overrides of the scenario, each key.path=value"});
-  v("published", c.published, {.meaning = "further overrides for the published law; same seeds, named NAME/published"});
+  v("published", c.published, {.meaning = "further overrides for the published law; named NAME/published"});
+  v("published_seeds", c.published_seeds,
+    {.meaning = "subset of the seeds flown with the published law; default: all seeds"});
   v("sensors", c.sensors,
     {.meaning = "ideal, dull: additional flights with ../sensors/ideal.yaml, dull.yaml, named NAME/ideal, NAME/dull"});
   v("sensor_seeds", c.sensor_seeds, {.meaning = "subset of the seeds flown with those sensors; default: all seeds"});

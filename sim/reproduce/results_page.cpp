@@ -20,10 +20,11 @@ constexpr std::string_view kHeading = "\n## ";
 
 constexpr const char* kHowToRead =
     R"(Each row is a claim: the paper's figure, the requirement of Hedgehop's developers (no paper states it), the published law, and the
-modified law on the same seeds. The modified law flies with the sensors `day`; `ideal` and `dull` are for comparison only. A row holds
-if every required flight was flown without a fault and has the figure, unless the row gives another meaning to a missing figure. A row
-that allows no contact also requires its flights to finish. No parameter was chosen on the judging seeds (`tuned_on` in
-`configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927] p. 212, of shares and counts only.
+modified law. Both fly the same seeds; where the modified law flies 100, the published law flies the first 50. The modified law flies
+with the sensors `day`; `ideal` and `dull` are for comparison only. A row holds if every required flight was flown without a fault and
+has the figure, unless the row gives another meaning to a missing figure. A row that allows no contact also requires its flights to
+finish. No parameter was chosen on the judging seeds (`tuned_on` in `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927]
+p. 212, of shares and counts only.
 
 Other pages have the figures of vehicles, cameras, images and exports ([verification.md](verification.md)), speed
 ([performance.md](performance.md)), failures ([known-failures.md](known-failures.md)) and effects that are not modeled

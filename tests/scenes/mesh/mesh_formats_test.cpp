@@ -138,6 +138,39 @@ TEST_F(MeshFormats, ReadsPlyWithItsColors) {
               ThrowsMessage<E>(HasSubstr("it has fewer bytes than elements")));
 }
 
+/// The importer would reserve 8 bytes per announced value.
+TEST_F(MeshFormats, RefusesPlyWithListsLongerThanTheFile) {
+  using namespace std::string_literals;
+  const auto header = [](const std::string& format, const std::string& count) {
+    return "ply\r\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+           "element face 2\nproperty uchar flags\nproperty list " + count + " uint8 vertex_indices\nend_header\n";
+  };
+  const auto with_text = [&](const std::string& counts) {
+    return header("ascii", "uchar") + "\n-1 -1 90000\n1 -1 0\n0 2 0\n7 3 0 1 2\n7 " + counts + "\n";
+  };
+  const auto with_bytes = [&](const std::string& format, const std::string& counts) {
+    const bool is_little = format == "binary_little_endian";
+    const std::string zero(4, '\0'), one = is_little ? "\0\0\x80\x3f"s : "\x3f\x80\0\0"s;
+    const std::string corners = zero + zero + zero + one + zero + zero + zero + one + zero;
+    const std::string face = is_little ? "\7\3\0\0\0\0\1\2"s : "\7\0\0\0\3\0\1\2"s;
+    return header(format, "int") + corners + face + "\7" + counts;
+  };
+  const std::string little = "binary_little_endian", big = "binary_big_endian";
+  EXPECT_NO_THROW(imported({.file = write("text.ply", with_text("3 2 1 0"))}));
+  EXPECT_NO_THROW(imported({.file = write("little.ply", with_bytes(little, "\3\0\0\0\2\1\0"s))}));
+  EXPECT_NO_THROW(imported({.file = write("big.ply", with_bytes(big, "\0\0\0\3\2\1\0"s))}));
+  for (const std::string& text :
+       {with_text("400000000 2 1 0"), with_text("-3 2 1 0"), with_bytes(little, "\3\0\0\x10\2\1\0"s),
+        with_bytes(little, "\xff\xff\xff\xff\2\1\0"s), with_bytes(big, "\x10\0\0\3\2\1\0"s)}) {
+    EXPECT_THAT([&] { imported({.file = write("long.ply", text)}); },
+                ThrowsMessage<E>(HasSubstr("element 'face' has a list of more values than the file has bytes")));
+  }
+  for (const char* count : {"uchar8", "float", "list"}) {
+    EXPECT_THAT([&] { imported({.file = write("type.ply", header("ascii", count))}); },
+                ThrowsMessage<E>(HasSubstr("its header is not that of a PLY")));
+  }
+}
+
 // A triangle from (0, 0, 100) to (200, 0, 100) and (0, 300, 100), z up, in cm.
 const std::string kCollada = R"(<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

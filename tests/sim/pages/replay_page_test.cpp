@@ -1,5 +1,6 @@
 #include "sim/pages/replay.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -55,6 +56,46 @@ TEST(ReplayInBrowser, PlacesTheVehicleAtItsTruePose) {
     EXPECT_NEAR(place[2].get<double>(), -p_W.z(), kRoundingM);  // y up
     EXPECT_NEAR(place[3].get<double>(), -p_W.x(), kRoundingM);  // z south
   }
+}
+
+/// In the plan, a label is as many meters wide and high as its sprite.
+TEST(ReplayInBrowser, LabelsOfCloseObstaclesDoNotCoverEachOther) {
+  HEDGEHOP_NEEDS_BROWSER();
+  const TemporaryFolder run;
+  Scenario scenario = load_scenario(HEDGEHOP_SOURCE_DIR "/configs/garratt2009_city_0_light.yaml");
+  scenes::worlds::RoomConfig hall{.length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .texture_size_px = 64};
+  constexpr int kBoxes = 3;
+  for (int i = 0; i < kBoxes; ++i) {
+    hall.added.boxes.push_back({.name = fmt::format("box {}", i), .north_m = -120.0 + 0.2 * i, .east_m = 80.0 + 0.3 * i});
+  }
+  scenario.scene = hall;
+  write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
+                     fake_flight(10.0, 1));
+  write_replay(run.path(), read_run(run.path()));
+  const PageVisit page = visit_replay(run.path(), R"js(
+    const frames = async (n) => { while (n--) await new Promise(requestAnimationFrame); }, camera = document.getElementById('camera');
+    camera.value = 'plan';
+    camera.dispatchEvent(new Event('change'));
+    replay.setTime(0);
+    replay.tags.update(-130, 80);  // the page does so at most every 80 ms
+    await frames(3);
+    return [...replay.tags.tags].filter(([, {visible, material}]) => visible && material.visible).map(([row, {position, scale, center}]) =>
+      [row[0], position.y - scale.x / 2, position.y + scale.x / 2, position.x - center.y * scale.y, position.x + (1 - center.y) * scale.y]);)js");
+  EXPECT_THAT(page.errors, IsEmpty());
+  constexpr double kTouchM = 1e-6;
+  int boxes = 0;
+  for (size_t i = 0; i < page.value.size(); ++i) {
+    const auto& one = page.value[i];
+    boxes += one[0].get<std::string>().starts_with("box");
+    for (size_t k = 0; k < i; ++k) {
+      const auto apart = [&](size_t low, size_t high) {
+        return std::max(one[low].get<double>() - page.value[k][high].get<double>(),
+                        page.value[k][low].get<double>() - one[high].get<double>());
+      };
+      EXPECT_GT(std::max(apart(1, 2), apart(3, 4)), -kTouchM) << page.value.dump();
+    }
+  }
+  EXPECT_EQ(boxes, kBoxes) << page.value.dump();
 }
 
 /// Views from above, through a ceiling. As a counterexample, a box around the flight hides it.

@@ -114,6 +114,10 @@ TEST(PaperFile, TuningSeedsAreRefusedAsJudgingSeeds) {
               Contains(HasSubstr("seed 12")));
   EXPECT_THAT(faults("tuned_on: 1:10\nflights: [{scenario: a.yaml, seeds: 11:12, quick: 12:13}]"),
               Contains(HasSubstr("'12:13' are not all")));
+  const std::string published = "tuned_on: none\nflights: [{scenario: a.yaml, seeds: 1:9, published_seeds: ";
+  EXPECT_THAT(faults(published + "9:10, published: [b=2]}]"), Contains(HasSubstr("'9:10' are not all")));
+  EXPECT_THAT(faults(published + "1:3, published: [b=2], quick: 3:4}]"), Contains(HasSubstr("'3:4' are not all")));
+  EXPECT_THAT(faults(published + "1:3}]"), Contains(HasSubstr("needs 'published'")));
 }
 
 TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
@@ -124,12 +128,13 @@ TEST(PaperFile, VariantsFlyTheSameScenarioWithTheirOwnOverrides) {
                     .quick = "1001",
                     .set = {"a=1"},
                     .published = {"b=2"},
+                    .published_seeds = "1001:1020",
                     .sensors = {"ideal", "dull"},
                     .sensor_seeds = "1001:1010"}};
   const std::vector<FlightGroup> groups = flight_groups(paper);
   ASSERT_EQ(groups.size(), 4u);
   EXPECT_EQ(groups[1].name, "tree/published");
-  EXPECT_EQ(groups[1].seeds, "1001:1030");
+  EXPECT_EQ(groups[1].seeds, "1001:1020");
   EXPECT_THAT(groups[1].set, ElementsAre("a=1", "b=2"));
   EXPECT_EQ(groups[3].name, "tree/dull");
   EXPECT_EQ(groups[3].seeds, "1001:1010");

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 
 import {drawCompass} from './replay_compass.js';
-import {eventMark, moverTag, NameTags, scaleLabels} from './replay_labels.js';
+import {eventMark, moverTag, NameTags, scaleLabels, separateLabels} from './replay_labels.js';
 import {LiveFlight, livePanels} from './replay_live.js';
 import {ModuleMap} from './replay_map.js';
 import {Plots} from './replay_plots.js';
@@ -252,6 +252,7 @@ function draw(now_ms) {
   if (screens.group.visible) screens.face(craft.group.worldToLocal(toViewer.copy(camera.position)).normalize());
   craft.body.visible = !views.onboard;
   scaleLabels(views.label_m);
+  separateLabels(camera, width / height);
   renderer.clippingPlanes = camera.position.y > -ceiling_m ? [cut] : [];
   renderer.render(stage, camera);
   drawCompass(element('compass'), camera, views.kind === 'plan');

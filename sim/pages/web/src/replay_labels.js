@@ -13,6 +13,32 @@ export function scaleLabels(view_m) {
   for (const {sprite, width} of sprites) sprite.scale.set(HEIGHT * view_m * width, HEIGHT * view_m, 1);
 }
 
+const STEPS = 4;  // positions of a label above its place
+const at = new THREE.Vector3();
+/** Stacks labels that would cover each other, the nearest lowest. A label without room is hidden. */
+export function separateLabels(camera, aspect) {
+  camera.updateMatrixWorld();
+  const shown = [];
+  for (const {sprite, width} of sprites) {
+    let isShown = true;
+    for (let node = sprite; node; node = node.parent) isShown &&= node.visible;
+    sprite.getWorldPosition(at).project(camera);
+    if (isShown && Math.abs(at.z) < 1) shown.push({sprite, x: at.x, y: at.y, z: at.z, half: HEIGHT * width / aspect});
+  }
+  const placed = [];
+  for (const one of shown.sort((a, b) => a.z - b.z)) {
+    // The view is 2 high and 2 wide.
+    const covers = (step) => placed.some(({x, y, half}) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y + 2 * HEIGHT * step - y) < 2 * HEIGHT);
+    let step = 0;
+    while (step < STEPS && covers(step)) ++step;
+    one.sprite.material.visible = step < STEPS;
+    if (step === STEPS) continue;
+    one.sprite.center.y = -step;
+    placed.push({...one, y: one.y + 2 * HEIGHT * step});
+  }
+  return placed;
+}
+
 /** Returns a text that faces the camera and has a constant size on the screen. */
 function label(text) {
   const canvas = document.createElement('canvas'), c = canvas.getContext('2d'), font = '600 28px system-ui, "DejaVu Sans", sans-serif';
