@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -86,7 +86,9 @@ std::optional<Property> property_of(std::istringstream& words) {
 std::optional<Header> take_header(std::string_view& rest) {
   Header header;
   while (!rest.empty()) {
-    std::istringstream words{std::string(take_line(rest))};
+    const std::string line{take_line(rest)};
+    if (std::ranges::any_of(line, [](unsigned char c) { return c < ' ' && c != '\t'; })) return std::nullopt;
+    std::istringstream words{line};
     std::string word;
     words >> word;
     if (word == "end_header") return header;
@@ -94,7 +96,7 @@ std::optional<Header> take_header(std::string_view& rest) {
       words >> header.format;
     } else if (word == "element") {
       Element& element = header.elements.emplace_back();
-      words >> element.name >> element.instances;
+      if (!(words >> element.name >> element.instances) || !(element.instances >= 0.0)) return std::nullopt;
     } else if (word == "property") {
       const std::optional<Property> property = property_of(words);
       if (!property || header.elements.empty()) return std::nullopt;
@@ -187,9 +189,14 @@ std::string fault_of_ply(std::string_view ply) {
   std::string_view rest = ply;
   const std::optional<Header> header = take_header(rest);
   if (!header) return "its header is not that of a PLY";
+  std::set<std::string> names;
+  for (const Element& element : header->elements) {
+    if (element.name == "tristrips") return "it has triangle strips; valid: faces";
+    if (!names.insert(element.name).second) return "it has the element '" + element.name + "' twice";
+  }
   double elements = 0.0;
-  for (const Element& element : header->elements) elements += std::abs(element.instances);
-  if (!(elements <= static_cast<double>(ply.size()))) return "it has fewer bytes than elements";
+  for (const Element& element : header->elements) elements += element.instances;
+  if (elements > static_cast<double>(ply.size())) return "it has fewer bytes than elements";
   return Lists(*header, rest).fault();
 }
 

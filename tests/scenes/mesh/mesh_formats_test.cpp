@@ -165,7 +165,14 @@ TEST_F(MeshFormats, RefusesPlyWithListsLongerThanTheFile) {
     EXPECT_THAT([&] { imported({.file = write("long.ply", text)}); },
                 ThrowsMessage<E>(HasSubstr("element 'face' has a list of more values than the file has bytes")));
   }
-  for (const char* count : {"uchar8", "float", "list"}) {
+  for (const auto& [element, fault] : {std::pair{"vertex", "it has the element 'vertex' twice"},
+                                       {"face", "it has the element 'face' twice"},
+                                       {"tristrips", "it has triangle strips; valid: faces"}}) {
+    std::string text = header("ascii", "uchar");
+    text.insert(text.find("end_header"), "element "s + element + " 2\nproperty list int int vertex_indices\n");
+    EXPECT_THAT([&] { imported({.file = write("twice.ply", text)}); }, ThrowsMessage<E>(HasSubstr(fault)));
+  }
+  for (const char* count : {"uchar8", "float", "list", "\3uchar"}) {
     EXPECT_THAT([&] { imported({.file = write("type.ply", header("ascii", count))}); },
                 ThrowsMessage<E>(HasSubstr("its header is not that of a PLY")));
   }
