@@ -65,7 +65,7 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
-/// Reads `TYPE NAME` or `list TYPE TYPE NAME`. @return nothing if a type is unknown.
+/// Reads `TYPE NAME` or `list TYPE TYPE NAME`. Returns nullopt if a type is unknown.
 std::optional<Property> property_of(std::istringstream& words) {
   Property property;
   std::string type;
@@ -82,7 +82,7 @@ std::optional<Property> property_of(std::istringstream& words) {
   return property;
 }
 
-/// Takes the header from the text. @return nothing if a line is unknown, or without `end_header`.
+/// Takes the header from the text. Returns nullopt if a line is unknown, or without `end_header`.
 std::optional<Header> take_header(std::string_view& rest) {
   Header header;
   while (!rest.empty()) {

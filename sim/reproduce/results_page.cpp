@@ -20,7 +20,7 @@ constexpr std::string_view kHeading = "\n## ";
 
 constexpr const char* kHowToRead =
     R"(Each row is a claim: the paper's figure, the requirement of Hedgehop's developers (no paper states it), the published law, and the
-modified law. Both fly the same seeds; where the modified law flies 100, the published law flies the first 50. The modified law flies
+modified law. Both fly the same seeds; if the modified law flies 100, the published law flies the first 50. The modified law flies
 with the sensors `day`; `ideal` and `dull` are for comparison only. A row holds if every required flight was flown without a fault and
 has the figure, unless the row gives another meaning to a missing figure. A row that allows no contact also requires its flights to
 finish. No parameter was chosen on the judging seeds (`tuned_on` in `configs/papers/`). Intervals are Wilson's at 95 % [Wilson1927]

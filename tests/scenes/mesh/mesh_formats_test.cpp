@@ -142,7 +142,8 @@ TEST_F(MeshFormats, ReadsPlyWithItsColors) {
 TEST_F(MeshFormats, RefusesPlyWithListsLongerThanTheFile) {
   using namespace std::string_literals;
   const auto header = [](const std::string& format, const std::string& count) {
-    return "ply\r\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+    return "ply\r\nformat " + format +
+           " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
            "element face 2\nproperty uchar flags\nproperty list " + count + " uint8 vertex_indices\nend_header\n";
   };
   const auto with_text = [&](const std::string& counts) {

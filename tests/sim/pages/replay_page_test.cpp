@@ -66,7 +66,8 @@ TEST(ReplayInBrowser, LabelsOfCloseObstaclesDoNotCoverEachOther) {
   scenes::worlds::RoomConfig hall{.length_m = 500.0, .width_m = 500.0, .height_m = 40.0, .texture_size_px = 64};
   constexpr int kBoxes = 3;
   for (int i = 0; i < kBoxes; ++i) {
-    hall.added.boxes.push_back({.name = fmt::format("box {}", i), .north_m = -120.0 + 0.2 * i, .east_m = 80.0 + 0.3 * i});
+    hall.added.boxes.push_back(
+        {.name = fmt::format("box {}", i), .north_m = -120.0 + 0.2 * i, .east_m = 80.0 + 0.3 * i});
   }
   scenario.scene = hall;
   write_result_files(run.path(), {.scenario = "hall", .seed = 9, .scenario_yaml = to_yaml(scenario)},
