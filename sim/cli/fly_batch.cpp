@@ -23,6 +23,7 @@
 #include "sim/flight/words.h"
 #include "sim/pages/campaign_report.h"
 #include "sim/pages/leaderboard_page.h"
+#include "sim/pages/report_page.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -183,8 +184,8 @@ void write_campaign_page(const std::filesystem::path& folder, bool quiet) {
   try {
     write_campaign_report(folder, std::nullopt);
     if (!quiet) fmt::print("written: {}\n", page);
-  } catch (const std::exception& error) {
-    notice(fmt::format("{}: not written: {}\n", page, error.what()));
+  } catch (const PagesAbsent& absent) {
+    notice(fmt::format("{}: not written: {}\n", page, absent.what()));
   }
 }
 
@@ -225,8 +226,8 @@ int fly_batch(BatchRun run) {
   }
   files.raise();
   if (!run.json) fmt::print("written: {}\n", (run.fly.out / "batch.json").string());
-  if (run.page) write_campaign_page(run.fly.out, /*quiet=*/run.json);
   warn_of_missed_goals(outcome.records);
+  if (run.page) write_campaign_page(run.fly.out, /*quiet=*/run.json);
   if (interruption.signal() != 0) return kSignalled + interruption.signal();
   if (!run.batch.faults.empty()) return kBadInput;
   return exit_status(verdict_of(outcome));

@@ -39,6 +39,16 @@ struct Undisturbed {
   uint64_t calls = 0;
 };
 
+/// Expects a documented exit status and one line: 2 if the folder could not be written before the first flight.
+void expect_reported(const CommandEnd& end, const std::string& when) {
+  if (end.status == kBadInput) {
+    EXPECT_THAT(end.err, ContainsRegex("^out: cannot write results: [^\n]*\n$")) << when;
+    return;
+  }
+  EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << when << end.out << end.err;
+  EXPECT_THAT(complaints(end.err), SizeIs(end.status == kInternalError ? 1 : 0)) << when << ": " << end.err;
+}
+
 class Disk : public ::testing::TestWithParam<std::string_view> {
  protected:
   void SetUp() override { std::filesystem::remove_all(folder.path() / "out"); }
@@ -56,10 +66,11 @@ class Disk : public ::testing::TestWithParam<std::string_view> {
     }
     return one;
   }
-  /// Returns the calls to test: all calls if requested (scripts/soak), otherwise a sample.
+  /// Returns the calls to test: all calls if requested (scripts/soak), otherwise a sample. The last one closes the lock
+  /// of the folder, which holds no data.
   std::vector<uint64_t> calls_to_try() const {
     const auto count = static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 1));
-    std::vector<uint64_t> all(undisturbed().calls);
+    std::vector<uint64_t> all(undisturbed().calls - 1);
     std::iota(all.begin(), all.end(), 1);
     std::vector<uint64_t> some;
     std::ranges::sample(all, std::back_inserter(some), static_cast<std::ptrdiff_t>(count), std::mt19937_64(1));
@@ -94,9 +105,8 @@ TEST_P(Disk, ThatFailsAtAnyCallIsReportedWithoutLossOfResults) {
     for (const uint64_t at : calls_to_try()) {
       const std::string when = fmt::format("{} from call {}", fault, at);
       const CommandEnd end = fly(fault, at);
-      EXPECT_THAT(end.status, AnyOf(kFails, kInternalError)) << when << end.out << end.err;
+      expect_reported(end, when);
       EXPECT_THAT(end.out + end.err, ContainsRegex(words)) << when;
-      EXPECT_THAT(complaints(end.err), SizeIs(end.status == kInternalError ? 1 : 0)) << when << ": " << end.err;
       expect_recovery(whole, when);
     }
   }
@@ -161,14 +171,17 @@ TEST(DiskOfARun, ThatFailsAtAnyCallIsReported) {
   ASSERT_EQ(folder.shell(folder.on_failing_disk("out", "none", 0) + run).status, 0);
   const uint64_t calls = folder.calls(),
                  step = std::max<uint64_t>(1, calls / static_cast<uint64_t>(count_asked("HEDGEHOP_DISK_FAULTS", 5)));
-  for (uint64_t at = 1; at <= calls; at += step) {
+  for (uint64_t at = 1; at < calls; at += step) {  // the last call closes the lock of the folder
     std::filesystem::remove_all(folder.path() / "out");
     const CommandEnd end = folder.shell(folder.on_failing_disk("out", "hiccup", at) + run);
     const std::string when = fmt::format("call {} of {}: {}", at, calls, end.err);
-    EXPECT_THAT(end.status, AnyOf(0, kInternalError)) << when;
-    EXPECT_THAT(complaints(end.err), SizeIs(1)) << when;
     EXPECT_THAT(end.err, HasSubstr("Input/output error")) << when;
-    EXPECT_EQ(end.err.find("warning: incomplete video") != std::string::npos, end.status == 0) << when;
+    if (end.err.find("warning: incomplete video") == std::string::npos) {
+      expect_reported(end, when);
+    } else {
+      EXPECT_EQ(end.status, 0) << when;
+      EXPECT_THAT(complaints(end.err), SizeIs(1)) << when;
+    }
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
       EXPECT_THAT(entry.path().string(), Not(EndsWith(".part"))) << when;
     }
