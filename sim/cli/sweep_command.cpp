@@ -1,20 +1,17 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
-#include "sim/batch/junit.h"
 #include "sim/batch/seeds.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/every_write.h"
 #include "sim/cli/exit_status.h"
 #include "sim/cli/fly_batch.h"
 #include "sim/cli/flyable.h"
 #include "sim/cli/progress.h"
+#include "sim/cli/sweep_files.h"
 #include "sim/config/folder_lock.h"
 #include "sim/config/utf8.h"
 #include "sim/config/whole_file.h"
@@ -27,88 +24,13 @@
 namespace hedgehop::sim::cli {
 namespace {
 
-constexpr size_t kChunkFlights = 2'000;     // whose orders are in memory at a time
-constexpr size_t kMaxPageFlights = 50'000;  // a page with more could not be opened
-constexpr size_t kManyPoints = 5'000;       // their check takes more than ten seconds
-
-struct SweepRun {
-  const SweepOptions& options;
-  SweepConfig sweep;
-  std::filesystem::path out;
-  std::string name = "sweep";  ///< of the tables, without their ending
-};
-
-/// The flights that have ended: rows of the table, and records for the summary.
-struct FlownSweep {
-  Table table;
-  std::vector<FlightRecord> records;
-
-  /// @param whole  whether to store whole records, as the JUnit file needs them.
-  void add(const SweepConfig& sweep, const SweepOrders& orders, std::vector<FlightRecord> more, bool whole) {
-    Table rows = sweep_table(sweep, orders, more);
-    if (table.names().empty()) {
-      table = std::move(rows);
-    } else {
-      table.append(std::move(rows));
-    }
-    for (FlightRecord& record : more) {
-      if (!whole) make_small(record);
-      records.push_back(std::move(record));
-    }
-  }
-
- private:
-  static void make_small(FlightRecord& record) {
-    record.order.scenario_yaml.clear();
-    record.order.inputs.clear();
-    if (!record.result) return;
-    record.result->flight.metrics = {};
-    record.result->info.inputs.clear();
-  }
-};
-
-/// Writes the design of the sweep, which the page needs in addition to the table.
-void write_design(const SweepRun& run, const std::vector<std::string>& design_points, size_t block) {
-  nlohmann::ordered_json json{
-      {"description", run.sweep.description}, {"design", ""}, {"parameters", nlohmann::ordered_json::array()}};
-  std::visit([&]<class Design>(const Design&) { json["design"] = Design::kName; }, run.sweep.design);
-  for (const SweepParameter& p : run.sweep.parameters) {
-    json["parameters"].push_back({{"path", p.path}, {"log", p.scale == SweepParameter::Scale::log}});
-  }
-  if (const auto* optimize = std::get_if<OptimizeDesign>(&run.sweep.design)) {
-    json["minimize"] = optimize->minimize;
-    json["failure_cost"] = optimize->failure_cost;
-  }
-  if (block > 0) json.update({{"block", block}, {"points", design_points}});
-  write_file_whole(run.out / "sweep.json", json_text(json) + "\n");
-}
-
-EveryWrite write_tables(const SweepRun& run, const FlownSweep& flown, const std::vector<std::string>& design_points,
-                        size_t block) {
-  EveryWrite files;
-  files.attempt([&] {
-    std::filesystem::create_directories(run.out);
-    write_file_whole(run.out / (run.name + ".csv"), flown.table.csv());
-  });
-  files.attempt([&] { write_sqlite(run.out / (run.name + ".sqlite"), flown.table); });
-  files.attempt([&] { write_design(run, design_points, block); });
-  if (run.options.junit.empty()) return files;
-  files.attempt([&] { write_junit(run.options.junit, junit_text(flown.records, {}, junit_origin())); });
-  return files;
-}
-
-void write_page(const SweepRun& run, size_t flights) {
-  if (flights > kMaxPageFlights) {
-    warn(fmt::format("report.html is not written: {} flights; a page holds up to {}", flights, kMaxPageFlights));
-    return;
-  }
-  write_campaign_page(run.out);
-}
+constexpr size_t kChunkFlights = 2'000;  // whose orders are in memory at a time
+constexpr size_t kManyPoints = 5'000;    // their check takes more than ten seconds
 
 /// Prints the counts and returns the exit status.
 int conclude(const SweepRun& run, const SweepPlan& plan, const FlownSweep& flown) {
   const std::vector<FlightRecord>& records = flown.records;
-  const EveryWrite files = write_tables(run, flown, plan.numbers_of_design(), plan.block());
+  const EveryWrite files = write_sweep(run, flown, plan.numbers_of_design(), plan.block());
   const auto of_status = [&](FlightRecord::Status status) {
     return std::ranges::count(records, status, &FlightRecord::status);
   };
@@ -122,7 +44,7 @@ int conclude(const SweepRun& run, const SweepPlan& plan, const FlownSweep& flown
              of_verdict(Verdict::passed), of_verdict(Verdict::failed) + of_verdict(Verdict::fault), no_checks,
              of_status(FlightRecord::Status::failed), of_status(FlightRecord::Status::missing));
   if (files.well()) fmt::print("written: {}\n", (run.out / (run.name + ".csv")).string());
-  if (files.well() && run.options.shard.empty()) write_page(run, records.size());
+  if (files.well() && run.options.shard.empty()) write_sweep_page(run, records.size());
   print_failed(records);
   files.raise();
   return std::ranges::all_of(records, [](const FlightRecord& r) { return holds(verdict_of(r)); }) ? 0 : kFails;
@@ -193,9 +115,9 @@ int fly_optimizer(const SweepRun& run, const OptimizeDesign& design) {
   progress.close();
   FlownSweep flown;
   flown.add(run.sweep, best.orders, best.records, true);
-  const EveryWrite files = write_tables(run, flown, {}, 0);
+  const EveryWrite files = write_sweep(run, flown, {}, 0);
   if (!best.fault.empty()) {
-    if (files.well()) write_page(run, best.records.size());
+    if (files.well()) write_sweep_page(run, best.records.size());
     throw InputError(fmt::format("{}: {}", run.sweep.design_position.text(), best.fault));
   }
   if (best.stopped) {
