@@ -39,6 +39,12 @@ constexpr double kMinRangeM = 1e-3;
 /// Cosine of the maximum angle between the direction of a wall and the axis of its camera: 45 deg, for four cameras.
 constexpr double kSideCosine = 0.5 * std::numbers::sqrt2;
 
+/// Returns whether the vehicle moves away from obstacles in a direction of H.
+bool recedes(const Approach& approach, const Eigen::Vector2d& direction_H) {
+  constexpr double kRecedesMps = 0.2;  // more than the error of the estimated velocity
+  return approach.v_H.dot(direction_H) < -kRecedesMps;
+}
+
 vision::flow::WallFlowSample observe(const vision::flow::FlowVector& vector, const CameraFlow& camera,
                                      const Eigen::Vector3d& v_WC_C, double dt_s) {
   const vision::camera::PinholeCamera& lens = camera.pinhole();
@@ -183,7 +189,8 @@ PerSide PatchRanging::left_once_stopped_per_m(const Approach& approach) const {
     std::vector<double> left_per_m = sides_[i].lasting.lasting_per_m();
     for (size_t patch = 0; patch < left_per_m.size(); ++patch) {
       const Eigen::Vector2d& direction_H = sides_[i].directions_H[patch];
-      const bool on_path = direction_H.dot(approach.v_cmd_H) >= std::cos(kPathAngleRad) * approach.v_cmd_H.norm();
+      const bool on_path = direction_H.dot(approach.v_cmd_H) >= std::cos(kPathAngleRad) * approach.v_cmd_H.norm() &&
+                           !recedes(approach, direction_H);
       const double closing_mps = std::max(approach.v_H.dot(direction_H), approach.v_cmd_H.dot(direction_H));
       const double stops_m = stopping_distance_m(closing_mps, closing_mps, approach.stopping);
       left_per_m[patch] = on_path ? inverse_range_left_per_m(left_per_m[patch], stops_m) : 0.0;
@@ -234,7 +241,7 @@ double WallRanging::left_on_side_per_m(const Eigen::Vector2d& axis_H, const Appr
   for (const vision::flow::WallEstimate& wall : walls_) {
     const Eigen::Vector2d to_wall_H = wall.inverse_range_per_m.normalized();
     if (to_wall_H.dot(axis_H) < kSideCosine) continue;  // on another side
-    if (approach.v_cmd_H.dot(to_wall_H) <= 0.0) continue;
+    if (approach.v_cmd_H.dot(to_wall_H) <= 0.0 || recedes(approach, to_wall_H)) continue;
     const double closing_mps = std::max(approach.v_H.dot(to_wall_H), approach.v_cmd_H.dot(to_wall_H));
     const double tail_m = approach.tail_m * std::max(0.0, -to_wall_H.x());
     const double range_m = std::max(1.0 / wall.inverse_range_per_m.norm() - tail_m, kMinRangeM);

@@ -58,7 +58,8 @@ class Ranging {
   virtual void update(const SideCameras& cameras, const NavigationState& navigation) = 0;
   /// Returns the inverse range of the nearest obstacle on each side, 1/m; 0 if no obstacle is known.
   virtual PerSide nearest_per_m() const = 0;
-  /// Returns the inverse range that remains after a stop on each side, 1/m. Only obstacles on the path count.
+  /// Returns the inverse range that remains after a stop on each side, 1/m. Only obstacles on the path count, and only
+  /// when the vehicle no longer moves away from them: while it rolls to reverse, ranges from flow err by meters.
   virtual PerSide left_once_stopped_per_m(const Approach& approach) const = 0;
 };
 

@@ -79,12 +79,22 @@ std::vector<ConfigOutline> outline_alternatives() {
   return all;
 }
 
+/// Returns the default value of a member. Eigen leaves its own default values uninitialized.
+template <class T>
+T default_value() {
+  if constexpr (fields::EigenField<T>) {
+    return T::Zero();
+  } else {
+    return T{};
+  }
+}
+
 template <class T>
 ConfigOutline outline(const T& value, const fields::Field& field) {
   ConfigOutline node;
   if constexpr (fields::OptionalField<T>) {
     using Value = typename T::value_type;
-    node = outline(value ? *value : Value{}, field);
+    node = outline(value ? *value : default_value<Value>(), field);
     node.optional = true;
     node.present = value.has_value();
     return node;
@@ -122,7 +132,7 @@ ConfigOutline outline(const T& value, const fields::Field& field) {
   } else if constexpr (fields::VectorField<T>) {
     node.kind = ConfigOutline::Kind::list;
     for (const auto& item : value) node.parts.push_back(outline(item, field));
-    node.item.push_back(outline(typename T::value_type{}, field));
+    node.item.push_back(outline(default_value<typename T::value_type>(), field));
   } else if constexpr (fields::VariantField<T>) {
     node.kind = ConfigOutline::Kind::variant;
     node.all = outline_alternatives<T>();

@@ -2,15 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <ranges>
 #include <string>
+#include <thread>
 
 #include "sim/config/input_error.h"
 #include "sim/config/pending_file.h"
@@ -21,6 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A worker that a killed command was just starting holds the lock until it executes its program.
+constexpr std::chrono::milliseconds kWait{10};
+constexpr int kMaxWaits = 100;
+
 /// Returns whether the path still names the open file. A holder removes its file before it unlocks it.
 bool is_still(const fs::path& file, int descriptor) {
   struct stat open = {}, named = {};
@@ -28,13 +35,15 @@ bool is_still(const fs::path& file, int descriptor) {
          open.st_dev == named.st_dev;
 }
 
-/// Returns " (process N)" with the number that the holder wrote, or "".
-std::string holder_of(int descriptor) {
+/// Returns the number of the process that the holder wrote; otherwise 0.
+pid_t holder_of(int descriptor) {
   char text[32] = {};
   const ssize_t got = ::pread(descriptor, text, sizeof text - 1, 0);
-  const long process = got > 0 ? std::strtol(text, nullptr, 10) : 0;
-  return process > 0 ? fmt::format(" (process {})", process) : "";
+  return got > 0 ? static_cast<pid_t>(std::strtol(text, nullptr, 10)) : 0;
 }
+
+/// Returns whether no process has this number.
+bool has_ended(pid_t process) { return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
 
@@ -69,6 +78,7 @@ void FolderLock::make_folder() {
 }
 
 void FolderLock::hold(const fs::path& file, bool alone) {
+  int waits = kMaxWaits;
   for (;;) {
     const int descriptor = uninterrupted([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
     if (descriptor < 0) {
@@ -79,11 +89,15 @@ void FolderLock::hold(const fs::path& file, bool alone) {
     }
     const int operation = (alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
     if (uninterrupted([&] { return ::flock(descriptor, operation); }) != 0 && errno == EWOULDBLOCK) {
-      const std::string holder = holder_of(descriptor);
+      const pid_t holder = holder_of(descriptor);
       ::close(descriptor);
+      if (has_ended(holder) && waits-- > 0) {
+        std::this_thread::sleep_for(kWait);
+        continue;
+      }
       release();
       throw InputError(fmt::format("{}: in use by another hedgehop command{}; wait for its end or choose another --out",
-                                   folder_.string(), holder));
+                                   folder_.string(), holder > 0 ? fmt::format(" (process {})", holder) : ""));
     }
     if (!is_still(file, descriptor)) {
       ::close(descriptor);

@@ -128,16 +128,20 @@ constexpr int kRangedImagePx = 200;
 constexpr double kImageS = 0.04;
 constexpr double kNorthM = 4.0, kEastM = 2.5, kSouthM = 5.0, kWestM = 3.0;  // of the walls from the origin
 
+/// The room, and images of it.
+const std::vector<vision::TexturedPlane> kRangedRoom = {wall(kNorthM, 0.0, M_PI), wall(0.0, kEastM, -0.5 * M_PI),
+                                                        wall(-kSouthM, 0.0, 0.0), wall(0.0, -kWestM, 0.5 * M_PI)};
+const vision::WaveTexture kRangedTexture(7, 0.05, 0.8, 24);
+const vision::flow::ImageInterpolationConfig kRangedFlow{
+    .rows = 1, .cols = 8, .patch_px = 32, .margin_px = 14, .levels = 2};
+
 // Rendered images of a room with walls across the heading, for diagonal paths and for a path straight to a wall.
 TEST(FitWalls, MeasuresARoomFromTwoImagesOfFourCameras) {
-  const std::vector<vision::TexturedPlane> room = {wall(kNorthM, 0.0, M_PI), wall(0.0, kEastM, -0.5 * M_PI),
-                                                   wall(-kSouthM, 0.0, 0.0), wall(0.0, -kWestM, 0.5 * M_PI)};
-  const vision::WaveTexture texture(7, 0.05, 0.8, 24);
   for (const Eigen::Vector2d& v_mps :
        {Eigen::Vector2d(0.9, 0.9), Eigen::Vector2d(-0.4, 1.2), Eigen::Vector2d(0.0, 1.4)}) {
     const auto setup = four_cameras(kRangedImagePx, 1.0 / kImageS);
     CameraFlow::Options options;
-    options.flow = {.rows = 1, .cols = 8, .patch_px = 32, .margin_px = 14, .levels = 2};
+    options.flow = kRangedFlow;
     options.derotate = true;
     options.missing = vision::flow::Missing::skip;
     std::vector<CameraFlow> cameras;
@@ -146,7 +150,7 @@ TEST(FitWalls, MeasuresARoomFromTwoImagesOfFourCameras) {
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector2d at_m = k * kImageS * v_mps;
       navigation = level_flight({at_m.x(), at_m.y(), -1.0}, 0.0, v_mps);
-      const auto frames = see(setup, navigation, k * 40'000'000, room, texture);
+      const auto frames = see(setup, navigation, k * 40'000'000, kRangedRoom, kRangedTexture);
       for (size_t i = 0; i < cameras.size(); ++i) cameras[i].update(frames[i], Eigen::Vector3d::Zero());
     }
     const auto walls = fit_walls(cameras, navigation, 40'000'000);
@@ -171,6 +175,30 @@ TEST(FitWalls, MeasuresARoomFromTwoImagesOfFourCameras) {
           << v_mps.transpose() << " to " << to_wall_m.transpose();
     }
   }
+}
+
+// A vehicle that flies east reverses to west: the west wall counts only when the vehicle approaches it.
+TEST(WallRanging, CountsAWallOnlyWhenTheVehicleNoLongerLeavesIt) {
+  const auto setup = four_cameras(kRangedImagePx, 1.0 / kImageS);
+  SideCameras cameras(setup, kRangedFlow, /*derotate=*/true);
+  WallRanging ranging(PatchRanging::Options{});
+  const Eigen::Vector2d v_mps(0.9, 0.9), west_mps(0.9, -0.9);
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector2d at_m = k * kImageS * v_mps;
+    const NavigationState navigation = level_flight({at_m.x(), at_m.y(), -1.0}, 0.0, v_mps);
+    const auto frames = see(setup, navigation, k * 40'000'000, kRangedRoom, kRangedTexture);
+    cameras.update({k * 40'000'000, frames, navigation, {}});
+    ranging.update(cameras, navigation);
+  }
+  const auto range_to_west_m = [&](double v_east_mps) {
+    const Approach approach{.v_H = {0.9, v_east_mps}, .v_cmd_H = west_mps, .stopping = {0.3, 1.5}};
+    return 1.0 / ranging.left_once_stopped_per_m(approach)[0];
+  };
+  const double stop_m = 0.9 * 0.3 + 0.9 * 0.9 / (2.0 * 1.5), west_m = kWestM + kImageS * 0.9;
+  EXPECT_EQ(range_to_west_m(0.9), INFINITY);
+  EXPECT_EQ(range_to_west_m(0.3), INFINITY);
+  EXPECT_NEAR(range_to_west_m(0.0), west_m - stop_m, 0.1 * west_m);
+  EXPECT_NEAR(range_to_west_m(-0.9), west_m - stop_m, 0.1 * west_m);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "sim/config/folder_lock.h"
 
 #include <gmock/gmock.h>
+#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -87,6 +88,36 @@ TEST_F(LockTest, IsReleasedWhenItsProcessIsKilled) {
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_THAT(fault(root / "a"), HasSubstr(std::to_string(holder)));
   ::close(ready[0]);
+  ::kill(holder, SIGKILL);
+  ::waitpid(holder, nullptr, 0);
+  EXPECT_EQ(fault(root / "a"), "");
+}
+
+TEST_F(LockTest, WaitsForAChildOfAKilledHolder) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t holder = ::fork();
+  if (holder == 0) {
+    const FolderLock lock(root / "a");
+    if (::fork() != 0) {
+      ::pause();
+      ::_exit(0);
+    }
+    // The child ends when another process tries the lock for the second time; or by the alarm, if none does.
+    ::alarm(30);
+    const int events = ::inotify_init1(0);
+    ::inotify_add_watch(events, (root / "a/.hedgehop.lock").c_str(), IN_OPEN);
+    if (::write(ready[1], "x", 1) != 1) ::_exit(1);
+    inotify_event opened[2];
+    for (size_t got = 0; got < sizeof opened;) {
+      const ssize_t more = ::read(events, opened, sizeof opened - got);
+      if (more <= 0) break;
+      got += static_cast<size_t>(more);
+    }
+    ::_exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
   EXPECT_EQ(fault(root / "a"), "");
