@@ -79,6 +79,13 @@ void CampaignProgress::add(const std::string& name, const std::string& words, bo
   line_.show(fmt::format("{}: {} {}{}{}", counts, name, words, reused ? " (earlier)" : "", left_words()));
 }
 
+void CampaignProgress::close() const {
+  line_.close();
+  if (flown_ == 0) return;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  line_.keep(fmt::format("{}/{}, {} flown in {}", ended_, flights_, flown_, duration_words(elapsed_s)));
+}
+
 std::string CampaignProgress::left_words() const {
   if (flown_ == 0 || ended_ == flights_) return "";
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();

@@ -48,7 +48,8 @@ class CampaignProgress {
   explicit CampaignProgress(size_t flights);
   /// Adds an ended flight. @param words  its outcome, one line. @param reused  whether an earlier result was reused.
   void add(const std::string& name, const std::string& words, bool passed, bool reused);
-  void close() const { line_.close(); }
+  /// Prints the number of flights that were flown and their wall time.
+  void close() const;
 
  private:
   std::string left_words() const;

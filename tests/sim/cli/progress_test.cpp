@@ -9,7 +9,7 @@
 #include <regex>
 #include <string>
 
-#include "tests/sim/record/temporary_folder.h"
+#include "tests/sim/batch/campaign_folder.h"
 
 namespace hedgehop::sim::cli {
 namespace {
@@ -49,6 +49,18 @@ TEST(Progress, LineOfAFlightFitsANarrowTerminalAndShowsTheRemainingTime) {
     EXPECT_LT((*match)[1].length(), 50) << (*match)[1];
   }
   EXPECT_GT(lines, 1u);
+}
+
+TEST(Progress, CampaignEndsWithTheNumberOfFlownFlightsAndTheirWallTime) {
+  const CampaignFolder folder;
+  const auto progress = [&](const std::string& seeds) {
+    const CommandEnd end = folder.hedgehop("batch tiny.yaml --resume --no-report --out out --seeds " + seeds);
+    EXPECT_EQ(end.status, 0) << end.err;
+    return end.err;
+  };
+  EXPECT_THAT(progress("1:2"), testing::ContainsRegex("\n2/2, 2 flown in [0-9]+ s\n"));
+  EXPECT_THAT(progress("1:3"), testing::ContainsRegex("\n3/3, 1 flown in [0-9]+ s\n"));
+  EXPECT_THAT(progress("1:3"), testing::Not(testing::HasSubstr("flown in")));
 }
 
 }  // namespace

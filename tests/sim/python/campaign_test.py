@@ -33,7 +33,7 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(list(hedgehop.load(self.out).trajectory_hash), list(table.trajectory_hash))
 
     def test_a_batch_shows_its_progress_on_standard_error(self):
-        for progress, expected in ((True, 2), (False, 0)):
+        for progress, expected in ((True, 3), (False, 0)):  # two flights and their sum
             shown = io.StringIO()
             with contextlib.redirect_stderr(shown), warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # a build without npm writes no page and warns
