@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <system_error>
