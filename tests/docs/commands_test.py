@@ -135,7 +135,7 @@ class Commands(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         folder = cls.folder = pathlib.Path(cls.scratch.name)
         shutil.copytree(SOURCE / "configs", folder / "configs")
-        for example in ("keep_left", "loops"):
+        for example in ("flights", "keep_left", "loops"):
             shutil.copytree(SOURCE / "docs" / example, folder / "docs" / example)
         for file in (folder / "configs").rglob("*.yaml"):
             file.write_text(shortened_file(file.read_text()))
