@@ -63,7 +63,7 @@ function addChart(host, chart) {
   card.append(make('h3', '', chart.title), make('div', 'note', chart.note));
   const drawn = card.appendChild(make('div'));
   const empty = chart.paths ? !chart.paths.path.length : !chart.lines.some(({x}) => x.length);
-  if (empty) drawn.append(make('p', 'missing', 'No flight was flown for this chart.'));
+  if (empty) drawn.append(make('p', 'missing', 'No curve: the flights of this chart are not flown, or the files of their paths are not there.'));
   else if (chart.paths) return new PathChart(drawn, chart.paths).view;
   else return new LineChart(drawn, chart).axes;
   return null;
